@@ -29,6 +29,9 @@ impl Ray {
 }
 
 /// The part of a ray from `t0` to `t1`, with `0 <= t0 <= t1`, in scene units.
+///
+/// Any other span, also one with an end that is NaN, is empty: media clip it to nothing, so that
+/// its transmittance is 1 and nothing on it emits or scatters.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Span {
     /// Where it begins.
@@ -38,10 +41,11 @@ pub struct Span {
 }
 
 impl Span {
-    /// The span from `t0` to `t1`; `None` when it is empty or an end is NaN.
+    /// The span from `t0` to `t1`; `None` when it is empty, which includes ends that are negative
+    /// or NaN.
     #[must_use]
     pub fn new(t0: f32, t1: f32) -> Option<Self> {
-        (t0 < t1).then_some(Self { t0, t1 })
+        (t0 >= 0.0 && t0 < t1).then_some(Self { t0, t1 })
     }
 
     /// Its length; the largest finite number for an unbounded span, so that its transmittance in

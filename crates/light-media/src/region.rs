@@ -120,9 +120,10 @@ impl Region {
         self.bounds.is_none_or(|b| b.contains(self.local_point(p)))
     }
 
-    /// The part of `span` that lies in the region.
+    /// The part of `span` that lies in the region; `None` when it is empty.
     #[must_use]
     pub fn clip(&self, ray: &Ray, span: Span) -> Option<Span> {
+        let span = Span::new(span.t0, span.t1)?;
         match &self.bounds {
             None => Some(span),
             Some(bounds) => slabs(bounds, &self.local_ray(ray), span),

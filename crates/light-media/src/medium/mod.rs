@@ -44,7 +44,8 @@ pub trait Medium<C: ColorModel> {
     /// The coefficients at `p`; all zero outside of the medium.
     fn coefficients(&self, p: Vec3, wavelengths: &C::Wavelengths) -> Coefficients<C::Radiance>;
 
-    /// The part of `span` outside of which the medium is vacuum.
+    /// The part of `span` outside of which the medium is vacuum; `None` when it is empty, as a span
+    /// whose ends are not `0 <= t0 < t1` is.
     fn clip(&self, ray: &Ray, span: Span) -> Option<Span>;
 
     /// The optical thickness, the integral of the extinction over `span`, if it has a closed form.

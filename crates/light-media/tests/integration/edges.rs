@@ -33,22 +33,55 @@ fn span(t0: f32, t1: f32) -> Span {
 fn nothing_is_lost_outside_of_a_medium() {
     let far = Aabb::new(Vec3::splat(10.0), Vec3::splat(11.0));
     let region = Region::new(far, Affine3A::IDENTITY).expect("a box");
-    let medium = medium(Vec3::ONE, Vec3::ONE, region);
+    crosses_nothing(&medium(Vec3::ONE, Vec3::ONE, region), span(0.0, 20.0));
+}
+
+#[test]
+fn a_span_without_order_is_empty() {
+    let cube = Aabb::new(Vec3::splat(-9.0), Vec3::splat(9.0));
+    let region = Region::new(cube, Affine3A::IDENTITY).expect("a box");
+    let (nan, endless) = (f32::NAN, f32::INFINITY);
+    for region in [Region::UNBOUNDED, region] {
+        let medium = medium(Vec3::ONE, Vec3::ONE, region);
+        for (t0, t1) in [
+            (2.0, 1.0),
+            (nan, 1.0),
+            (0.0, nan),
+            (nan, nan),
+            (-5.0, 1.0),
+            (1.0, 1.0),
+            (endless, endless),
+        ] {
+            crosses_nothing(&medium, span(t0, t1));
+        }
+    }
+}
+
+/// Checks that a span takes nothing from a path and adds nothing to it.
+fn crosses_nothing(medium: &Homogeneous<Rgb>, part: Span) {
     let step = StepSize::new(0.5).expect("positive");
-    let part = span(0.0, 20.0);
     let mut none = || -> f32 { panic!("no random number is needed") };
     let all = [
-        transmittance::closed_form::<Rgb, _>(&medium, &RAY, part, &()).expect("a closed form"),
-        transmittance::march::<Rgb, _>(&medium, &RAY, part, step, 0.5, &()),
-        transmittance::ratio_tracking::<Rgb, _>(&medium, &RAY, part, &(), &mut none),
-        transmittance::unbiased::<Rgb, _>(&medium, &RAY, part, &(), &mut none),
-        transmittance::best::<Rgb, _>(&medium, &RAY, part, step, &(), &mut none),
-        delta_tracking::<Rgb, _>(&medium, &RAY, part, Vec3::ONE, &(), &mut none).weight,
+        transmittance::closed_form::<Rgb, _>(medium, &RAY, part, &()).expect("a closed form"),
+        transmittance::march::<Rgb, _>(medium, &RAY, part, step, 0.5, &()),
+        transmittance::ratio_tracking::<Rgb, _>(medium, &RAY, part, &(), &mut none),
+        transmittance::unbiased::<Rgb, _>(medium, &RAY, part, &(), &mut none),
+        transmittance::best::<Rgb, _>(medium, &RAY, part, step, &(), &mut none),
     ];
-    assert_eq!(all, [Vec3::ONE; 6], "closed, marched, tracked, best");
-    let seen = emission::<Rgb, _>(&medium, &RAY, part, step, &(), &mut none);
-    assert_eq!(seen, VolumeLight::vacuum(), "no emission");
-    assert_eq!(seen.l, Vec3::ZERO, "black");
+    assert_eq!(
+        all,
+        [Vec3::ONE; 5],
+        "{part:?}: closed, marched, tracked, best"
+    );
+    let flight = delta_tracking::<Rgb, _>(medium, &RAY, part, Vec3::ONE, &(), &mut none);
+    assert_eq!(flight.scattered_at, None, "{part:?}");
+    assert_eq!(
+        (flight.weight, flight.emitted),
+        (Vec3::ONE, Vec3::ZERO),
+        "{part:?}"
+    );
+    let seen = emission::<Rgb, _>(medium, &RAY, part, step, &(), &mut none);
+    assert_eq!(seen, VolumeLight::vacuum(), "{part:?}: no emission");
 }
 
 /// In a purely absorbing medium, a collision has weight 0.
