@@ -58,7 +58,7 @@ impl<C: ColorModel> ScaledEmission<C> {
     }
 
     /// The radiant quantity of the emission, as a power in W; above 0 unless it is black. A line
-    /// between the nanometres of the integral counts as wide as one of them.
+    /// without width counts as wide as a nanometre.
     #[cfg(feature = "alloc")]
     #[must_use]
     pub(crate) fn radiant(&self) -> f32 {

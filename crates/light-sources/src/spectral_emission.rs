@@ -1,6 +1,7 @@
 #[cfg(feature = "alloc")]
 use alloc::sync::Arc;
 
+use light_math::spectrum::photometric::SpectrumIntegrals;
 use light_math::spectrum::{
     Blackbody, Constant, Daylight, RgbIlluminant, RgbUnbounded, SampledSpectrum,
     SampledWavelengths, Spectrum,
@@ -78,6 +79,20 @@ impl Spectrum for SpectralEmission {
             Self::Dense(s) => s.max_value(),
             #[cfg(feature = "alloc")]
             Self::PiecewiseLinear(s) => s.max_value(),
+        }
+    }
+
+    fn integrals(&self) -> SpectrumIntegrals {
+        match self {
+            Self::Constant(s) => s.integrals(),
+            Self::Blackbody(s) => s.integrals(),
+            Self::Daylight(s) => s.integrals(),
+            Self::RgbIlluminant(s) => s.integrals(),
+            Self::RgbUnbounded(s) => s.integrals(),
+            #[cfg(feature = "alloc")]
+            Self::Dense(s) => s.integrals(),
+            #[cfg(feature = "alloc")]
+            Self::PiecewiseLinear(s) => s.integrals(),
         }
     }
 

@@ -37,6 +37,8 @@ pub use uplift_solver::UpliftSolver;
 pub use uplift_table::{UpliftTable, UpliftTableError};
 pub use wavelengths::SampledWavelengths;
 
+use photometric::SpectrumIntegrals;
+
 /// A function of wavelength.
 pub trait Spectrum {
     /// The value at the wavelength `lambda` in nm.
@@ -44,6 +46,12 @@ pub trait Spectrum {
 
     /// An upper bound of the values, tight unless an implementor says otherwise.
     fn max_value(&self) -> f32;
+
+    /// The photometric and the radiometric integral. The default sums trapezoids between whole
+    /// nanometres; a spectrum with narrower features has a sum of its own.
+    fn integrals(&self) -> SpectrumIntegrals {
+        SpectrumIntegrals::of_nanometres(self)
+    }
 
     /// The values at the sampled wavelengths.
     #[inline]

@@ -1,8 +1,12 @@
 use super::Spectrum;
+use super::photometric::SpectrumIntegrals;
+use super::visible_range::{LAMBDA_MAX, LAMBDA_MIN};
+use crate::float;
 
 /// A spectrum by values at chosen wavelengths, straight between them and 0 outside.
 ///
-/// `S` is an array, a borrowed slice or a `Vec`. A query costs a binary search.
+/// `S` is an array, a borrowed slice or a `Vec`. A query costs a binary search. A line of its own
+/// wavelength alone has no width and therefore no power.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "serde", derive(serde::Serialize, serde::Deserialize))]
 pub struct PiecewiseLinear<S> {
@@ -58,8 +62,7 @@ impl<S: AsRef<[f32]>> Spectrum for PiecewiseLinear<S> {
         if above == x.len() {
             return if lambda == x[below] { y[below] } else { 0.0 };
         }
-        let t = (lambda - x[below]) / (x[above] - x[below]);
-        (1.0 - t) * y[below] + t * y[above]
+        straight(lambda, [x[below], x[above]], [y[below], y[above]])
     }
 
     fn max_value(&self) -> f32 {
@@ -68,6 +71,28 @@ impl<S: AsRef<[f32]>> Spectrum for PiecewiseLinear<S> {
             .iter()
             .fold(f32::NEG_INFINITY, |a, &b| a.max(b))
     }
+
+    /// Exact, however narrow the lines.
+    fn integrals(&self) -> SpectrumIntegrals {
+        let mut sum = SpectrumIntegrals::default();
+        let (x, y) = (self.lambdas().windows(2), self.values().windows(2));
+        for (x, y) in x.zip(y) {
+            let (x, y) = ([x[0], x[1]], [y[0], y[1]]);
+            let (mut from, end) = (x[0].max(LAMBDA_MIN), x[1].min(LAMBDA_MAX));
+            while from < end {
+                let to = end.min(float::floor(from) + 1.0);
+                sum.add_straight([from, to], [from, to].map(|lambda| straight(lambda, x, y)));
+                from = to;
+            }
+        }
+        sum
+    }
+}
+
+/// The value at `lambda` of the straight line from `x[0]` to `x[1]`.
+fn straight(lambda: f32, x: [f32; 2], y: [f32; 2]) -> f32 {
+    let t = (lambda - x[0]) / (x[1] - x[0]);
+    (1.0 - t) * y[0] + t * y[1]
 }
 
 /// Why numbers are no piecewise linear spectrum.
@@ -125,9 +150,47 @@ mod tests {
         );
     }
 
+    /// Triangles of height 1; the integrals by the efficiency at whole nanometres.
+    #[test]
+    fn narrow_lines_have_their_power() {
+        for (middle, half, luminous) in [
+            (555.0, 0.1, 68.3),
+            (554.5, 0.1, 68.3),
+            (589.3, 0.6, 314.1),
+            (589.0, 1e-3, 0.525),
+        ] {
+            let lambdas = [middle - half, middle, middle + half];
+            let line = PiecewiseLinear::new(lambdas, [0.0, 1.0, 0.0]).expect("valid");
+            let SpectrumIntegrals {
+                luminous: l,
+                radiant,
+            } = line.integrals();
+            // The ends are whole steps of 6e-5 nm.
+            let given = 0.5 * (lambdas[2] - lambdas[0]);
+            assert!(
+                (radiant / given - 1.0).abs() < 1e-5,
+                "{middle}: {radiant} W"
+            );
+            let expected = luminous * given / half;
+            assert!((l / expected - 1.0).abs() < 2e-3, "{middle}: {l} lm");
+        }
+    }
+
+    #[test]
+    fn integrals_are_those_of_other_spectra() {
+        use crate::spectrum::Constant;
+        let flat = PiecewiseLinear::new([100.0, 500.3, 2e3], [2.0; 3]).expect("valid");
+        let (flat, constant) = (flat.integrals(), Constant(2.0).integrals());
+        assert!((flat.radiant / constant.radiant - 1.0).abs() < 1e-5, "W");
+        assert!((flat.luminous / constant.luminous - 1.0).abs() < 1e-5, "lm");
+        let infrared = PiecewiseLinear::new([900.0, 1e3], [1.0; 2]).expect("valid");
+        assert_eq!(infrared.integrals(), SpectrumIntegrals::default(), "unseen");
+    }
+
     #[test]
     fn one_wavelength_is_a_line() {
         let s = PiecewiseLinear::new([589.0], [2.0]).expect("valid");
+        assert_eq!(s.integrals().radiant, 0.0, "without width");
         assert_eq!((s.eval(589.0), s.eval(589.1)), (2.0, 0.0), "sodium");
     }
 

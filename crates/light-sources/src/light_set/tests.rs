@@ -15,7 +15,7 @@ use crate::scene_sphere::SceneSphere;
 use crate::spectral::Spectral;
 use crate::spectral_emission::SpectralEmission;
 use alloc::sync::Arc;
-use light_math::spectrum::photometric::Watt;
+use light_math::spectrum::photometric::{Lumen, Watt};
 use light_math::spectrum::{Blackbody, PiecewiseLinear};
 
 fn point(intensity: f32) -> LightDesc<Rgb> {
@@ -217,8 +217,7 @@ fn powers_and_extents_are_those_of_the_lights() {
     );
 }
 
-/// A lamp of one narrow line has the power that it was asked for, and one between two nanometres
-/// has some.
+/// A lamp of one narrow line has the power that it was asked for, in watts or lumens.
 #[test]
 fn powers_of_spectral_lights_are_integrals() {
     type S4 = Spectral<4>;
@@ -241,11 +240,19 @@ fn powers_of_spectral_lights_are_integrals() {
     for power in powers {
         assert!((power / 9.0 - 1.0).abs() < 1e-5, "{power} W");
     }
-    let between = lamp(line(589.5, 0.4), IntensityAmount::Radiometric(1.0));
+    let laser = |lambda: f32, half: f32| {
+        let lumens = IntensityAmount::LuminousPower(Lumen(683.0));
+        lamp(line(lambda, half), lumens)
+    };
     let dark = lamp(line(589.0, 0.5), IntensityAmount::Radiometric(0.0));
     let mut builder = LightSetBuilder::<S4>::new(scene);
-    builder.add(between).expect("a lamp");
+    for lambda in [555.0, 554.5] {
+        builder.add(laser(lambda, 0.1)).expect("a laser");
+    }
     builder.add(dark).expect("a dark lamp");
     let powers = builder.build().powers();
-    assert!(powers[0] > 0.0 && powers[1] == 0.0, "{powers:?}");
+    for power in &powers[..2] {
+        assert!((power - 1.0).abs() < 2e-3, "{power} W");
+    }
+    assert_eq!(powers[2], 0.0, "dark");
 }

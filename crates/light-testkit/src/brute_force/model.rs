@@ -130,7 +130,7 @@ impl Model for Spectral<4> {
     fn radiant(emission: &SpectralEmission) -> [f64; 2] {
         const PARTS: u32 = 32;
         let step = 1.0 / f64::from(PARTS);
-        let parts = (0..471 * PARTS).map(|i| 359.5 + step * (f64::from(i) + 0.5));
+        let parts = (0..470 * PARTS).map(|i| 360.0 + step * (f64::from(i) + 0.5));
         let sum: f64 = parts.map(|lambda| spectrum_at(emission, lambda)).sum();
         [sum * step, f64::from(emission.max_value())]
     }

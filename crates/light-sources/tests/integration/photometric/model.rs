@@ -54,7 +54,10 @@ fn integral(
         for (value, lambda) in values.values().iter().zip(lambda) {
             // The last block reaches beyond 830 nm.
             if lambda <= cie::LAMBDA_MAX {
-                sum += f64::from(value * weight(lambda));
+                // Trapezoids: the ends of the range are half of a nanometre.
+                let is_end = lambda == cie::LAMBDA_MIN || lambda == cie::LAMBDA_MAX;
+                let width = if is_end { 0.5 } else { 1.0 };
+                sum += f64::from(value * weight(lambda) * width);
             }
         }
     }
