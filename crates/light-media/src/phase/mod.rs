@@ -1,6 +1,7 @@
 //! Phase functions: the distribution of scattered directions.
 
 mod asymmetry;
+mod deflection;
 mod henyey_greenstein;
 mod isotropic;
 mod mie;
@@ -9,6 +10,7 @@ mod rayleigh;
 mod schlick;
 
 pub use asymmetry::AsymmetryError;
+pub use deflection::Deflection;
 pub use henyey_greenstein::HenyeyGreenstein;
 pub use isotropic::Isotropic;
 pub use mie::{MieHazy, MieMurky};
@@ -51,20 +53,23 @@ impl Phase {
     /// `u` in `[0, 1)^2`.
     #[must_use]
     pub fn sample(&self, wo: Vec3, u: Vec2) -> PhaseSample {
-        let cos_theta = self.sample_cos(u.x);
-        let sin_theta = float::safe_sqrt(1.0 - cos_theta * cos_theta);
+        let deflection = self.sample_deflection(u.x);
+        let Deflection {
+            cos_theta,
+            sin_theta,
+        } = deflection;
         let (sin_phi, cos_phi) = float::sin_cos(TAU * u.y);
         let local = Vec3::new(sin_theta * cos_phi, sin_theta * sin_phi, cos_theta);
         PhaseSample {
             wi: Frame::from_z(-wo).from_local(local),
-            pdf: self.value(cos_theta),
+            pdf: self.value_at(deflection),
         }
     }
 
     /// The value, and density, for a pair of unit directions that both point away from the event.
     #[must_use]
     pub fn pdf(&self, wo: Vec3, wi: Vec3) -> f32 {
-        self.value(-wo.dot(wi))
+        self.value_at(Deflection::between(wo, wi))
     }
 }
 
@@ -88,6 +93,20 @@ impl PhaseFunction for Phase {
             Self::Schlick(f) => f.sample_cos(u),
             Self::MieHazy(f) => f.sample_cos(u),
             Self::MieMurky(f) => f.sample_cos(u),
+        }
+    }
+
+    fn value_at(&self, deflection: Deflection) -> f32 {
+        match self {
+            Self::HenyeyGreenstein(f) => f.value_at(deflection),
+            other => other.value(deflection.cos_theta),
+        }
+    }
+
+    fn sample_deflection(&self, u: f32) -> Deflection {
+        match self {
+            Self::HenyeyGreenstein(f) => f.sample_deflection(u),
+            other => Deflection::from_cos(other.sample_cos(u)),
         }
     }
 }

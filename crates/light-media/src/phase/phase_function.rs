@@ -1,3 +1,4 @@
+use super::deflection::Deflection;
 use light_math::glam::Vec3;
 
 /// A phase function that depends on the angle of deflection alone.
@@ -12,6 +13,19 @@ pub trait PhaseFunction {
 
     /// A cosine of deflection in `[-1, 1]` with density `TAU * value`, from `u` in `[0, 1)`.
     fn sample_cos(&self, u: f32) -> f32;
+
+    /// The value for a deflection. The default takes its cosine; a narrow peak needs its sine.
+    #[inline]
+    fn value_at(&self, deflection: Deflection) -> f32 {
+        self.value(deflection.cos_theta)
+    }
+
+    /// The deflection with the cosine of [`sample_cos`](Self::sample_cos). A narrow peak has digits
+    /// in the sine that the cosine lacks.
+    #[inline]
+    fn sample_deflection(&self, u: f32) -> Deflection {
+        Deflection::from_cos(self.sample_cos(u))
+    }
 }
 
 /// A direction chosen by a phase function.
