@@ -1,4 +1,6 @@
 use super::*;
+use crate::Surface;
+use lights::glam::Vec3Swizzles;
 
 /// The square `[0, 1]^2` at height `z` as two triangles.
 fn square(z: f32) -> [[Vec3; 3]; 2] {
@@ -45,6 +47,28 @@ fn the_triangle_left_out_is_not_hit() {
         PrimitiveId::new(2),
         "the one behind"
     );
+}
+
+#[test]
+fn a_face_twice_in_one_plane_does_not_hide_itself() {
+    for z in [0.0, 1e-3, 1.0, -300.0] {
+        for swap in [0, 1, 2] {
+            // Planes across every axis, with either winding.
+            let turn = |[a, b, c]: [Vec3; 3]| [[a, b, c], [c, b, a]];
+            let across = |v: Vec3| [v, v.yzx(), v.zxy()][swap];
+            let once = square(z).map(|corners| corners.map(across));
+            let accel = Accel::new(once.map(turn).as_flattened());
+            let corners = once[0];
+            let from = PrimitiveId::new(0);
+            let surface = Surface::on_triangle(from, corners, Vec2::new(0.25, 0.5));
+            for wi in [Vec3::new(1.0, 2.0, 3.0), Vec3::new(-3.0, -1.0, -2.0)] {
+                let ray = surface.spawn(wi.normalize());
+                let hit = accel.closest(&ray, Some(from));
+                assert_eq!(hit, None, "at {z} across axis {swap}");
+                assert!(!accel.occluded(&ray, 1.0, Some(from)), "{z}, {swap}");
+            }
+        }
+    }
 }
 
 #[test]

@@ -9,6 +9,10 @@ use super::build::over_triangles;
 use super::bvh_hit::BvhHit;
 use crate::Ray;
 
+/// The nearest hit. In a plane through zero a ray starts without an offset, and triangles there
+/// would be hit at distance 0.
+const T_MIN: f32 = f32::MIN_POSITIVE;
+
 /// A binary hierarchy of boxes over triangles that are stored leaf by leaf.
 #[derive(Default)]
 pub(super) struct TriangleBvh {
@@ -57,7 +61,7 @@ impl TriangleBvh {
         from: Option<u32>,
         any_hit: impl Fn(u32, Vec2) -> bool,
     ) -> Option<BvhHit> {
-        let ray = ObvhsRay::new(ray.origin.into(), ray.direction.into(), 0.0, t_max);
+        let ray = ObvhsRay::new(ray.origin.into(), ray.direction.into(), T_MIN, t_max);
         let mut hit = RayHit::none();
         self.bvh.ray_traverse(ray, &mut hit, |ray, slot| {
             self.distance(ray, slot, from, &any_hit)
@@ -79,7 +83,7 @@ impl TriangleBvh {
         from: Option<u32>,
         any_hit: impl Fn(u32, Vec2) -> bool,
     ) -> bool {
-        let ray = ObvhsRay::new(ray.origin.into(), ray.direction.into(), 0.0, t_max);
+        let ray = ObvhsRay::new(ray.origin.into(), ray.direction.into(), T_MIN, t_max);
         !self
             .bvh
             .ray_traverse_miss(ray, |ray, slot| self.distance(ray, slot, from, &any_hit))
