@@ -223,7 +223,9 @@ impl<C: ColorModel> LightSet<C> {
     /// the spectrum. Above 0 for every light that emits at some wavelength.
     ///
     /// Of a light of your own type in the spectral model the integral is not known: its power is
-    /// estimated at a few wavelengths, or if it is black at those by its extent.
+    /// estimated at a few wavelengths, or if it is black at those by its extent. The power of a light
+    /// at infinity grows with the square of the scene's radius: where no float holds it, it is
+    /// infinite, which a sampler by power refuses.
     #[must_use]
     pub fn powers(&self) -> Vec<f32> {
         let mut powers = RadiantPowers::new(self.scene);

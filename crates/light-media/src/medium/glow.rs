@@ -21,6 +21,12 @@ pub struct Glow<C: ColorModel, S> {
     _colors: core::marker::PhantomData<C>,
 }
 
+impl<C: ColorModel, S> Default for Glow<C, S> {
+    fn default() -> Self {
+        Self::uniform()
+    }
+}
+
 impl<C: ColorModel, S> Glow<C, S> {
     /// The factor 1 everywhere.
     #[must_use]
