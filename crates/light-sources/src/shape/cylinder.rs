@@ -103,11 +103,12 @@ impl Cylinder {
         })
     }
 
-    /// The point, moved inward by more than its rounding error, so that the cylinder does not
-    /// occlude its own light.
-    fn before(&self, at: SurfacePoint) -> SurfacePoint {
+    /// The point, moved by more than its rounding error to the side that `wi` comes from, so that
+    /// the cylinder does not occlude its own light.
+    fn before(&self, at: SurfacePoint, wi: Vec3) -> SurfacePoint {
         let size = self.transform.origin().abs().max_element() + self.radius + self.length;
-        let p = at.p - at.n * (SPHERE_ERROR * size);
+        let error = SPHERE_ERROR * size;
+        let p = at.p - at.n * error.copysign(at.n.dot(wi));
         SurfacePoint { p, ..at }
     }
 
@@ -182,7 +183,7 @@ impl Shape for Cylinder {
             let (wi, pdf) = area_to_solid_angle(pdf, at.p - ctx.p, at.n)?;
             // From outside, where rounding has put an own point, a line first enters.
             return (at.n.dot(wi) > 0.0).then(|| DirectionSample {
-                at: self.before(at),
+                at: self.before(at, wi),
                 wi,
                 pdf,
             });
@@ -190,13 +191,15 @@ impl Shape for Cylinder {
         let sample = self.view(ctx.p).sample(u)?;
         let n = sample.normal.extend(0.0);
         let z = sample.height - 0.5 * self.length;
+        let wi = self.transform.vector(sample.wi);
+        let at = SurfacePoint {
+            p: self.transform.point(n * self.radius + Vec3::Z * z),
+            n: self.transform.vector(n),
+            uv: Vec2::new(azimuth(n), (sample.height / self.length).clamp(0.0, 1.0)),
+        };
         Some(DirectionSample {
-            at: SurfacePoint {
-                p: self.transform.point(n * self.radius + Vec3::Z * z),
-                n: self.transform.vector(n),
-                uv: Vec2::new(azimuth(n), (sample.height / self.length).clamp(0.0, 1.0)),
-            },
-            wi: self.transform.vector(sample.wi),
+            at: self.before(at, wi),
+            wi,
             pdf: sample.pdf,
         })
     }
@@ -273,6 +276,35 @@ mod tests {
                 let share = sum / f64::from(u32::from(n) * u32::from(n));
                 let off = share - f64::from(expected);
                 assert!(off.abs() < 5e-3, "{moved}, {turn}: {share}, not {expected}");
+            }
+        }
+    }
+
+    /// Points lie on the side that they are seen from by more than rounding, also those of the far
+    /// wall: the cylinder does not hide its own light.
+    #[test]
+    fn samples_lie_before_the_wall() {
+        for center in [Vec3::ZERO, Vec3::new(3e4, -1e3, 20.0)] {
+            let transform = RigidTransform::new(Affine3A::from_translation(center));
+            let tube = Cylinder::new(transform.expect("rigid"), 0.7, 1.5).expect("a tube");
+            for (from, sides) in [
+                (Vec3::new(1.5, 0.4, -0.2), [true, false]),
+                (Vec3::new(0.3, 0.1, 0.2), [false, true]),
+                (Vec3::new(0.8, -0.2, 2.0), [true, true]),
+            ] {
+                let ctx = LightSampleContext::medium(center + from);
+                let mut seen = [false; 2];
+                for i in 0..256u16 {
+                    let u = Vec2::new(f32::from(i % 16), f32::from(i / 16));
+                    let u = (u + 0.5) / 16.0;
+                    let sample = tube.sample_toward(&ctx, u).expect("a point");
+                    let is_inner = sample.at.n.dot(sample.wi) > 0.0;
+                    seen[usize::from(is_inner)] = true;
+                    let across = (sample.at.p.as_dvec3() - center.as_dvec3()).truncate();
+                    let is_inside = across.length() < f64::from(tube.radius);
+                    assert_eq!(is_inside, is_inner, "{center}, {from}: {sample:?}");
+                }
+                assert_eq!(seen, sides, "the walls seen from {from}");
             }
         }
     }
