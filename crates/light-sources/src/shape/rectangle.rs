@@ -99,9 +99,15 @@ impl Rectangle {
         ReceiverCosine::new(ctx, self.corners())
     }
 
-    /// Direction and density of a point that is chosen by area.
-    fn by_area(&self, p: Vec3, at: SurfacePoint) -> Option<(Vec3, f32)> {
-        area_to_solid_angle(1.0 / self.area(), at.p - p, at.n)
+    /// Direction and density of a point that is chosen by area, seen along `to_light`.
+    fn by_area(&self, to_light: Vec3) -> Option<(Vec3, f32)> {
+        area_to_solid_angle(1.0 / self.area(), to_light, self.normal)
+    }
+
+    /// From `p` to the point at `uv`: not by way of the point itself, whose rounding grows with the
+    /// coordinates of the scene.
+    fn toward(&self, p: Vec3, uv: Vec2) -> Vec3 {
+        (self.corner - p) + self.edges[0] * uv.x + self.edges[1] * uv.y
     }
 
     fn at(&self, uv: Vec2) -> SurfacePoint {
@@ -139,14 +145,13 @@ impl Shape for Rectangle {
 
     fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
         let Some(seen) = self.seen_from(ctx.p) else {
-            let ShapeSample { at, pdf } = self.sample(u)?;
-            let to_light = at.p - ctx.p;
-            let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
+            let (at, to_light) = (self.at(u), self.toward(ctx.p, u));
+            let (wi, pdf) = self.by_area(to_light)?;
             return with_density_of_ray(self, ctx, to_light, DirectionSample { at, wi, pdf });
         };
         let (u, pdf) = self.receiver_cosine(ctx).sample(u);
-        let at = self.at(seen.sample(u));
-        let to_light = at.p - ctx.p;
+        let uv = seen.sample(u);
+        let (at, to_light) = (self.at(uv), self.toward(ctx.p, uv));
         let wi = unit_normal(to_light)?;
         let pdf = pdf * seen.pdf();
         with_density_of_ray(self, ctx, to_light, DirectionSample { at, wi, pdf })
@@ -156,9 +161,10 @@ impl Shape for Rectangle {
         let Some(at) = self.hit(ctx.p, wi) else {
             return 0.0;
         };
+        let by_area = || self.by_area(self.toward(ctx.p, at.uv));
         match self.seen_from(ctx.p) {
             Some(seen) => self.receiver_cosine(ctx).pdf(|| seen.invert(at.uv)) * seen.pdf(),
-            None => self.by_area(ctx.p, at).map_or(0.0, |(_, pdf)| pdf),
+            None => by_area().map_or(0.0, |(_, pdf)| pdf),
         }
     }
 

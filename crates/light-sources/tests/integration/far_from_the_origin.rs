@@ -172,6 +172,46 @@ fn triangles_bring_all_of_their_light_at_grazing_angles() {
     }
 }
 
+/// A thin strip of a rectangle, seen at a slope of less than a thousandth from beside it: none of
+/// its light is lost.
+#[test]
+fn rectangles_bring_all_of_their_light_at_grazing_angles() {
+    const COUNT: u32 = 4000;
+    let mut rng = Rng::new(13);
+    let turn = Quat::from_axis_angle(Vec3::new(1.0, 2.0, 3.0).normalize(), 0.7);
+    for offset in [0.0, 30.0, 100.0, 300.0] {
+        for width in [1e-3, 0.01, 0.1] {
+            let far = Vec3::new(1.0, 0.7, 0.3) * offset;
+            let edges = [Vec3::X, Vec3::Y * width].map(|v| turn * v);
+            let desc = ShapeDesc::Rectangle { corner: far, edges };
+            let shape = desc.build().expect("a rectangle");
+            let AnyShape::Rectangle(built) = &shape else {
+                panic!("{shape:?} is a rectangle");
+            };
+            let ([x, y], n) = (built.edges(), turn * Vec3::Y);
+            let p = far + turn * Vec3::new(0.5, -1.5, 1e-3);
+            let ctx = LightSampleContext::surface(p, n, n);
+            let mut missing = 0;
+            let estimate = Estimate::of(COUNT, || {
+                let Some(sample) = shape.sample_toward(&ctx, rng.vec2()) else {
+                    missing += 1;
+                    return 0.0;
+                };
+                f64::from(n.dot(sample.wi).max(0.0) / sample.pdf)
+            });
+            assert_eq!(missing, 0, "at {offset}, width {width}");
+            // Corners relative to the receiver: their sums would be rounded.
+            let first = far - p;
+            let corners = [Vec3::ZERO, x, y, x + y].map(|corner| first + corner);
+            let truth = irradiance(corners, Vec3::ZERO, n);
+            assert!(
+                (estimate.mean - truth).abs() < estimate.margin(truth) + 2e-3 * truth,
+                "at {offset}, width {width}: {estimate:?} of {truth}"
+            );
+        }
+    }
+}
+
 /// A flat quad is sampled as one wherever it is: the samples are as even as at the origin.
 #[test]
 fn flat_quads_stay_flat() {

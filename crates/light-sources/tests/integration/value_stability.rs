@@ -27,7 +27,7 @@ const PINNED: &[(&str, u64)] = &[
     ("lat-long sky", 0x60027183f6a9a632),
     ("portal", 0xb58d78b1aaf3b509),
     ("triangle", 0xd6559e5e9b14e326),
-    ("rectangle", 0x1e0201ce3b3970b0),
+    ("rectangle", 0x9fd628b7985c0a38),
     ("sphere", 0x416309d4ae7fc015),
 ];
 
