@@ -3,7 +3,7 @@ use super::flat_quad::FlatQuad;
 use super::normal::{normal_length, unit_normal};
 use super::patch_area;
 use super::rounding::is_within_rounding;
-use super::solid_angle::area_to_solid_angle;
+use super::solid_angle::{LEAST_DENSITY, area_to_solid_angle};
 use super::{DirectionSample, Shape, ShapeSample, UvArea, UvDensity};
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
@@ -123,7 +123,12 @@ impl BilinearPatch {
 
     /// Unit direction and density of the point at `uv`, which is chosen by area.
     fn by_area(&self, uv: Vec2, to_light: Vec3) -> Option<(Vec3, f32)> {
-        area_to_solid_angle(self.pdf_at(uv), to_light, self.at(uv)?.n)
+        let (wi, pdf) = area_to_solid_angle(self.pdf_at(uv), to_light, self.at(uv)?.n)?;
+        let least = match self.bend {
+            Bend::Flat => LEAST_DENSITY,
+            Bend::Twisted => 0.0,
+        };
+        Some((wi, pdf.max(least)))
     }
 
     /// Flat where all normals at the corners are the same, up to rounding of the corners.
@@ -230,10 +235,10 @@ impl Shape for BilinearPatch {
             let at = SurfacePoint { uv, ..sample.at };
             return Some(DirectionSample { at, ..sample });
         }
-        let ShapeSample { at, pdf } = self.sample(u)?;
+        let ShapeSample { at, .. } = self.sample(u)?;
         // Not by way of `at.p`, whose rounding grows with the coordinates of the scene.
         let to_light = self.along(self.p00 - ctx.p, at.uv);
-        let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
+        let (wi, pdf) = self.by_area(at.uv, to_light)?;
         if self.bend == Bend::Twisted || is_within_rounding(wi, to_light, &at) {
             let (met, t) = self.intersect(ctx.p, wi)?;
             // A ray that meets the patch twice meets it from both sides, even in a flat patch that

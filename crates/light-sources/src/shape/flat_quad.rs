@@ -34,8 +34,7 @@ impl FlatQuad {
     }
 
     /// A direction toward the quadrilateral; the point on it has the parameters of a triangle. The
-    /// density is that of the direction as it is rounded, which may pass the other triangle: that
-    /// of a sliver, which is sampled by area, differs.
+    /// density is that of the direction as it is rounded, which may pass the other triangle.
     pub(super) fn sample(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
         let is_first = u.x < self.first;
         let (triangle, start, chance) = if is_first {
@@ -51,13 +50,10 @@ impl FlatQuad {
         (pdf > 0.0).then_some(DirectionSample { pdf, ..sample })
     }
 
+    /// Where rounding lets a direction pass both triangles, the larger density: both have nearly
+    /// the same, unless one is a sliver, whose density says nothing of the other.
     pub(super) fn pdf(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
-        let [first, second] = &self.triangles;
-        let pdf = first.pdf_toward(ctx, wi);
-        if pdf > 0.0 {
-            pdf * self.first
-        } else {
-            second.pdf_toward(ctx, wi) * (1.0 - self.first)
-        }
+        let [first, second] = self.triangles.each_ref().map(|t| t.pdf_toward(ctx, wi));
+        (first * self.first).max(second * (1.0 - self.first))
     }
 }

@@ -4,7 +4,7 @@ use core::fmt;
 use super::normal::unit_normal;
 use super::receiver_cosine::ReceiverCosine;
 use super::rounding::{hit_slack, with_density_of_ray};
-use super::solid_angle::{SMALL, area_to_solid_angle};
+use super::solid_angle::{LEAST_DENSITY, SMALL, area_to_solid_angle};
 use super::{DirectionSample, Shape, ShapeSample};
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
@@ -101,7 +101,8 @@ impl Rectangle {
 
     /// Direction and density of a point that is chosen by area, seen along `to_light`.
     fn by_area(&self, to_light: Vec3) -> Option<(Vec3, f32)> {
-        area_to_solid_angle(1.0 / self.area(), to_light, self.normal)
+        let (wi, pdf) = area_to_solid_angle(1.0 / self.area(), to_light, self.normal)?;
+        Some((wi, pdf.max(LEAST_DENSITY)))
     }
 
     /// From `p` to the point at `uv`: not by way of the point itself, whose rounding grows with the

@@ -1,8 +1,14 @@
+use core::f32::consts::FRAC_1_PI;
+
 use crate::glam::Vec3;
 
 /// The solid angle in sr below which shapes with straight edges are sampled by area: the remaining
 /// variance costs less than sampling by solid angle.
 pub(super) const SMALL: f32 = 3e-4;
+
+/// The density below which rounding has moved a receiver into the plane of a flat shape: it looks
+/// small, though it covers up to the half space over which this is uniform.
+pub(super) const LEAST_DENSITY: f32 = 0.5 * FRAC_1_PI;
 
 /// Density per solid angle of a point that was chosen with density `pdf_area` on a surface with
 /// unit normal `n`, seen along `to_light` (not of unit length); `None` edge-on, where the density

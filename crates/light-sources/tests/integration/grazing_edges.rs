@@ -167,3 +167,46 @@ fn samples_from_within_the_plane_have_the_density_of_their_direction() {
     }
     assert!(sampled > 0, "none of {total}");
 }
+
+/// Just above the inside of a flat shape it covers a half space, however rounding sees it: samples
+/// have the density of that, and none a tiny one.
+#[test]
+fn samples_from_just_above_a_flat_shape_cover_a_half_space() {
+    const HALF_SPACE: f64 = core::f64::consts::TAU;
+    let mut rng = Rng::new(14);
+    for height in [0.0, 1e-7, 1e-6, 1e-5] {
+        let (mut sum, mut count) = (0.0, 0);
+        for _ in 0..2000 {
+            let x = rng.direction();
+            let (y, z) = x.any_orthonormal_pair();
+            let corner = rng.direction();
+            let p = corner + x * rng.range(0.1, 0.9) + y * rng.range(0.1, 0.9) + z * height;
+            let ctx = LightSampleContext::medium(p);
+            let far = corner + (x + y) * 1.5;
+            let quad = ShapeDesc::Quad([corner, corner + x, corner + y, far]);
+            let edges = [x, y];
+            for desc in [quad, ShapeDesc::Rectangle { corner, edges }] {
+                let shape = desc.build().expect("a shape");
+                for _ in 0..50 {
+                    count += 1;
+                    if let Some(sample) = shape.sample_toward(&ctx, rng.vec2()) {
+                        let weight = 1.0 / f64::from(sample.pdf);
+                        assert!(weight < 300.0, "{desc:?} from {p}: {sample:?}");
+                        let pdf = shape.pdf_toward(&ctx, sample.wi);
+                        assert_eq!(pdf, sample.pdf, "{desc:?}: {sample:?}");
+                        sum += weight;
+                    }
+                }
+            }
+        }
+        let mean = sum / f64::from(count);
+        assert!(mean < 1.02 * HALF_SPACE, "{mean} sr from {height}");
+        // From within the plane, rounding decides whether anything is seen.
+        let least = if height > 1e-6 {
+            0.98 * HALF_SPACE
+        } else {
+            0.0
+        };
+        assert!(mean > least, "{mean} sr from {height}");
+    }
+}
