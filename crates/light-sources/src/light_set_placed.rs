@@ -58,8 +58,8 @@ impl<C: ColorModel> LightSetBuilder<C> {
     /// ```
     ///
     /// # Errors
-    /// An unknown prototype, a transform that does not keep its vertices finite, or more lights
-    /// than ids; the set is unchanged then.
+    /// An unknown prototype, a transform that does not keep its vertices, areas and powers finite,
+    /// or more lights than ids; the set is unchanged then.
     pub fn place_mesh(
         &mut self,
         prototype: MeshPrototypeId,
@@ -107,8 +107,8 @@ impl<C: ColorModel> LightSet<C> {
     /// takes its prototype. No id changes, and no other source is touched.
     ///
     /// # Errors
-    /// When the source is none, or the transform does not keep its vertices finite; the set is
-    /// unchanged then.
+    /// When the source is none, or the transform does not keep its vertices, areas and powers
+    /// finite; the set is unchanged then.
     pub fn update_placement(
         &mut self,
         source: SourceId,

@@ -121,14 +121,7 @@ impl<C: ColorModel> MeshLight<C> {
             let triangles = desc.indices.iter();
             triangles.map(|vertices| triangle(&desc.positions, uvs, vertices))
         };
-        let mut largest = 0.0f32;
-        let is_endless = |triangle: Triangle| {
-            largest = largest.max(triangle.area());
-            !triangle.area().is_finite()
-        };
-        if let Some(triangle) = triangles().position(is_endless) {
-            return Err(MeshLightError::Area { triangle });
-        }
+        let largest = largest_area(triangles())?;
         let texture = SurfaceTexture::new(&desc.emission);
         let means = texture.as_ref().map(|texture| {
             let mut known = MeanCache::default();
@@ -209,6 +202,36 @@ impl<C: ColorModel> MeshLight<C> {
         Aabb::from_points(corners.map(|vertex| self.positions[vertex as usize]))
     }
 
+    /// The area of the largest triangle.
+    pub(crate) fn largest_area(&self) -> f32 {
+        self.check_areas(|corner| corner).unwrap_or(f32::INFINITY)
+    }
+
+    /// Refuses to place the mesh where [`new`](Self::new) would refuse it. `growth` is an upper
+    /// bound of the factor between areas, `largest` the [`largest_area`](Self::largest_area).
+    pub(crate) fn check_placed(
+        &self,
+        largest: f32,
+        growth: f32,
+        place: impl Fn(Vec3) -> Vec3,
+    ) -> Result<(), MeshLightError> {
+        // Nearly always the bound is enough.
+        if self.emission.check_power(largest * growth).is_ok() {
+            return Ok(());
+        }
+        let check = self.emission.check_power(self.check_areas(place)?);
+        check.map_err(MeshLightError::Emission)
+    }
+
+    /// The area of the largest triangle where `place` takes it.
+    fn check_areas(&self, place: impl Fn(Vec3) -> Vec3) -> Result<f32, MeshLightError> {
+        let placed = self.indices.iter().map(|vertices| {
+            let triangle = triangle(&self.positions, None, vertices);
+            Triangle::from_corners(triangle.vertices().map(&place), Triangle::DEFAULT_UV)
+        });
+        largest_area(placed)
+    }
+
     /// The corners of a triangle, if no index list has to be read for them.
     #[inline]
     pub(crate) fn corners(&self, index: usize) -> Option<&[Vec3; 3]> {
@@ -220,6 +243,19 @@ impl<C: ColorModel> MeshLight<C> {
             MeshIndices::List(_) => None,
         }
     }
+}
+
+/// The area of the largest triangle, if all are finite.
+fn largest_area(triangles: impl Iterator<Item = Triangle>) -> Result<f32, MeshLightError> {
+    let mut largest = 0.0f32;
+    for (k, triangle) in triangles.enumerate() {
+        let area = triangle.area();
+        if !area.is_finite() {
+            return Err(MeshLightError::Area { triangle: k });
+        }
+        largest = largest.max(area);
+    }
+    Ok(largest)
 }
 
 #[inline]

@@ -5,7 +5,7 @@ use core::fmt;
 use crate::area::DiffuseAreaLight;
 use crate::color::ColorModel;
 use crate::glam::{Affine3A, Vec3};
-use crate::mesh::MeshLight;
+use crate::mesh::{MeshLight, MeshLightError};
 use crate::shape::Triangle;
 use light_math::Aabb;
 
@@ -24,6 +24,8 @@ pub enum PlacedMeshError {
     OtherSource,
     /// The transform is not finite, or moves a vertex out of the range of `f32`.
     Transform,
+    /// The transform makes a mesh that is no light, such as one of infinite power.
+    Mesh(MeshLightError),
     /// With this source the set would have more lights than 32 bits can count.
     TooMany,
 }
@@ -52,6 +54,7 @@ pub(crate) struct PlacedMeshes<C: ColorModel> {
 struct MeshPrototype<C: ColorModel> {
     mesh: MeshLight<C>,
     bounds: Aabb,
+    largest_area: f32,
 }
 
 #[derive(Clone, Copy, Debug)]
@@ -77,8 +80,12 @@ impl<C: ColorModel> PlacedMeshes<C> {
     /// Adds a mesh without a place; `None` where 32 bits do not suffice for its id.
     pub(crate) fn add_prototype(&mut self, mesh: MeshLight<C>) -> Option<MeshPrototypeId> {
         let id = u32::try_from(self.prototypes.len()).ok()?;
-        let bounds = mesh.bounds();
-        self.prototypes.push(MeshPrototype { mesh, bounds });
+        let (bounds, largest_area) = (mesh.bounds(), mesh.largest_area());
+        self.prototypes.push(MeshPrototype {
+            mesh,
+            bounds,
+            largest_area,
+        });
         Some(MeshPrototypeId(id))
     }
 
@@ -89,15 +96,25 @@ impl<C: ColorModel> PlacedMeshes<C> {
         to_scene: &Affine3A,
     ) -> Result<usize, PlacedMeshError> {
         let found = self.prototypes.get(prototype.0 as usize);
-        let MeshPrototype { mesh, bounds } = found.ok_or(PlacedMeshError::UnknownPrototype)?;
+        let MeshPrototype {
+            mesh,
+            bounds,
+            largest_area,
+        } = found.ok_or(PlacedMeshError::UnknownPrototype)?;
         // Every vertex lies between the corners of the box, and so does its image.
         let is_near = |corner| to_scene.transform_point3(corner).is_finite();
         let are_near = bounds.is_empty() || corners(bounds).into_iter().all(is_near);
-        if to_scene.is_finite() && are_near {
-            Ok(mesh.len())
-        } else {
-            Err(PlacedMeshError::Transform)
+        if !(to_scene.is_finite() && are_near) {
+            return Err(PlacedMeshError::Transform);
         }
+        // At least the product of the two largest stretches.
+        let m = to_scene.matrix3;
+        let stretches = [m.x_axis, m.y_axis, m.z_axis].map(|axis| axis.length_squared());
+        let growth = stretches.into_iter().sum();
+        let place = |corner| to_scene.transform_point3(corner);
+        let check = mesh.check_placed(*largest_area, growth, place);
+        check.map_err(PlacedMeshError::Mesh)?;
+        Ok(mesh.len())
     }
 
     /// The number that the next placement gets.
@@ -214,12 +231,13 @@ fn corners(bounds: &Aabb) -> [Vec3; 8] {
 
 impl fmt::Display for PlacedMeshError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        f.write_str(match self {
-            Self::UnknownPrototype => "the set has no such prototype",
-            Self::OtherSource => "the source is not a placed mesh",
-            Self::Transform => "the transform does not keep all vertices finite",
-            Self::TooMany => "too many lights: ids have 32 bits",
-        })
+        match self {
+            Self::UnknownPrototype => f.write_str("the set has no such prototype"),
+            Self::OtherSource => f.write_str("the source is not a placed mesh"),
+            Self::Transform => f.write_str("the transform does not keep all vertices finite"),
+            Self::Mesh(error) => error.fmt(f),
+            Self::TooMany => f.write_str("too many lights: ids have 32 bits"),
+        }
     }
 }
 

@@ -60,6 +60,10 @@ pub enum CoefficientsError {
     SigmaS,
     /// The emitted radiance is negative or not finite.
     Le,
+    /// Absorption and scattering together are not finite.
+    SigmaT,
+    /// Absorption times emitted radiance is not finite.
+    Emission,
 }
 
 impl<C: ColorModel> Substance<C> {
@@ -67,7 +71,7 @@ impl<C: ColorModel> Substance<C> {
     /// `sigma_a le` per unit length: an optically thick layer without scattering has radiance `le`.
     ///
     /// # Errors
-    /// A value is negative or not finite.
+    /// A value is negative or not finite, or the extinction or the emission is not finite.
     pub fn new(
         sigma_a: C::Emission,
         sigma_s: C::Emission,
@@ -82,7 +86,14 @@ impl<C: ColorModel> Substance<C> {
                 return Err(error);
             }
         }
-        let max_sigma_t = C::maximum(&sigma_a) + C::maximum(&sigma_s);
+        let absorbed = C::maximum(&sigma_a);
+        let max_sigma_t = absorbed + C::maximum(&sigma_s);
+        if !max_sigma_t.is_finite() {
+            return Err(CoefficientsError::SigmaT);
+        }
+        if !(absorbed * C::maximum(&le)).is_finite() {
+            return Err(CoefficientsError::Emission);
+        }
         Ok(Self {
             sigma_a,
             sigma_s,
@@ -154,6 +165,8 @@ impl core::fmt::Display for CoefficientsError {
             Self::SigmaA => "sigma_a must be finite and nowhere negative",
             Self::SigmaS => "sigma_s must be finite and nowhere negative",
             Self::Le => "the emission of a medium must be finite and nowhere negative",
+            Self::SigmaT => "sigma_a + sigma_s must be finite",
+            Self::Emission => "sigma_a times the emission of a medium must be finite",
         })
     }
 }

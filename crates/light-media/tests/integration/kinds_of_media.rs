@@ -124,4 +124,13 @@ fn each_coefficient_has_its_error() {
         ];
         assert_eq!(found, expected.map(Some), "{wrong}");
     }
+    let [huge, large] = [3e38, 1e20].map(Vec3::splat);
+    for (found, expected) in [
+        (new(huge, huge, Vec3::ZERO), CoefficientsError::SigmaT),
+        (new(large, Vec3::ZERO, large), CoefficientsError::Emission),
+        (new(huge, huge, huge), CoefficientsError::SigmaT),
+    ] {
+        assert_eq!(found, Some(expected), "overflow");
+    }
+    assert_eq!(new(huge, Vec3::ZERO, Vec3::ONE), None, "large");
 }

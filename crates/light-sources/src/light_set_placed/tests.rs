@@ -11,6 +11,7 @@ use crate::light::AreaLight;
 use crate::light_desc::LightDesc;
 use crate::light_ref::LightRef;
 use crate::light_set_update::LightUpdateError;
+use crate::mesh::MeshLight;
 use crate::mesh_indices::MeshIndices;
 use crate::pdf_coverage::PdfCoverage;
 use crate::rgb::Rgb;
@@ -167,6 +168,21 @@ fn what_cannot_be_placed_is_refused_by_name() {
     );
     let huge = lights.place_mesh(prototype, &huge).err();
     assert_eq!(huge, Some(PlacedMeshError::Transform), "1 is beyond f32");
+    for scale in [1e17, 1e18, 3e18, 1e19, 1e20] {
+        let to_scene = Affine3A::from_scale(Vec3::splat(scale));
+        let refused = lights.place_mesh(prototype, &to_scene).err();
+        let same = MeshLight::new(moved(&tent(uniform(), true), &to_scene)).err();
+        assert_eq!(refused, same.map(PlacedMeshError::Mesh), "scale {scale}");
+    }
+    let mut lights = builder();
+    let prototype = lights.add_mesh_prototype(tent(uniform(), true));
+    let prototype = prototype.expect("a mesh");
+    let endless = Affine3A::from_scale(Vec3::splat(1e20));
+    let endless = lights.place_mesh(prototype, &endless).err();
+    assert!(
+        matches!(endless, Some(PlacedMeshError::Mesh(_))),
+        "{endless:?}"
+    );
     assert!(lights.build().is_empty(), "nothing was placed");
 
     let mut lights = builder();
