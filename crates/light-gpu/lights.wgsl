@@ -54,6 +54,7 @@ const LIGHT_EDGE_ERROR: f32 = 9.536743e-7;
 const LIGHT_GRAZING: f32 = 0.001;
 const LIGHT_HIT_ERROR: f32 = 4.7683716e-7;
 const LIGHT_LEAST_COSINE: f32 = 0.01;
+const LIGHT_LEAST_DENSITY: f32 = 0.15915494;
 const LIGHT_OWN_ERROR: f32 = 9.536743e-7;
 const LIGHT_SMALL_BOUND: f32 = 0.00059400004;
 const LIGHT_SMALL_SOLID_ANGLE: f32 = 0.0003;
@@ -2604,8 +2605,8 @@ fn light_rectangle_sample(
     }
     found.p = s.corner + s.x * place.x + s.y * place.y;
     found.n = s.n;
-    let to_light = found.p - receiver.p;
-    let by_area = light_area_to_solid_angle(1.0 / (length(s.x) * length(s.y)), to_light, s.n);
+    let to_light = light_rectangle_toward(s, receiver.p, place);
+    let by_area = light_rectangle_by_area(s, to_light);
     let by_angle = vec4<f32>(light_unit_or(to_light, vec3<f32>(0.0)), density);
     let direction = select(by_area, by_angle, seen.solid_angle > 0.0);
     found.wi = direction.xyz;
@@ -2626,8 +2627,22 @@ fn light_rectangle_pdf(s: LightRectangle, receiver: LightReceiver, wi: vec3<f32>
         let place = light_spherical_rectangle_invert(seen, hit.xy);
         return light_bilinear_pdf(place, light_rectangle_cosines(receiver, s)) / seen.solid_angle;
     }
-    let at = s.corner + s.x * hit.x + s.y * hit.y;
-    return light_area_to_solid_angle(1.0 / (length(s.x) * length(s.y)), at - receiver.p, s.n).w;
+    return light_rectangle_by_area(s, light_rectangle_toward(s, receiver.p, hit.xy)).w;
+}
+
+// From p to the point at `place`: not by way of the point itself, whose rounding grows with the
+// coordinates of the scene.
+fn light_rectangle_toward(s: LightRectangle, p: vec3<f32>, place: vec2<f32>) -> vec3<f32> {
+    return (s.corner - p) + s.x * place.x + s.y * place.y;
+}
+
+// Direction and density of a point that is chosen by area. Where rounding has moved the receiver
+// into the plane, the density is at least that over a half space.
+fn light_rectangle_by_area(s: LightRectangle, to_light: vec3<f32>) -> vec4<f32> {
+    let inv_area = 1.0 / (length(s.x) * length(s.y));
+    let found = light_area_to_solid_angle(inv_area, to_light, s.n);
+    let pdf = max(found.w, LIGHT_LEAST_DENSITY);
+    return vec4<f32>(found.xyz, select(0.0, pdf, found.w > 0.0));
 }
 
 fn light_rectangle_seen(s: LightRectangle, p: vec3<f32>) -> LightSphericalRectangle {
