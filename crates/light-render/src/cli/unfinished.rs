@@ -47,21 +47,37 @@ impl Unfinished<'_> {
             let message = format!("{done}; the same command goes on from {}", path.display());
             return Ok((film, Failure::Interrupted(message)));
         }
-        let path = self.free_path()?;
         let part = PartialPicture {
             samples: 0..samples,
             film,
             identity: identity(),
         };
-        part.write(&path).map_err(|error| {
-            drop(fs::remove_file(&path));
-            Failure::input(error)
-        })?;
+        let path = self.write_beside(&part)?;
         let message = format!(
             "{done}; to go on, add --checkpoint {} to the same command",
             path.display()
         );
         Ok((part.film, Failure::Interrupted(message)))
+    }
+
+    /// Writes `part` beside the picture, to a file of its own whose name is returned.
+    fn write_beside(&self, part: &PartialPicture) -> Result<PathBuf, Failure> {
+        // Complete before it gets its name: a second request to end may come at any time.
+        let ending = format!("checkpoint-of-{}.exr", std::process::id());
+        let unnamed = self.outputs[0].with_extension(ending);
+        part.write(&unnamed).map_err(Failure::input)?;
+        let named = self.free_path().and_then(|path| {
+            let renamed = fs::rename(&unnamed, &path);
+            renamed.map_err(|error| {
+                drop(fs::remove_file(&path));
+                refuse(&path, format!("cannot be written: {error}"))
+            })?;
+            Ok(path)
+        });
+        if named.is_err() {
+            drop(fs::remove_file(&unnamed));
+        }
+        named
     }
 
     /// The first name beside the picture that no file has, which an empty file takes.
