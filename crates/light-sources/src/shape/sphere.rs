@@ -121,9 +121,13 @@ impl Sphere {
     /// The point, moved by more than its rounding error to the side from which it is seen, so that
     /// the sphere does not occlude its own light.
     fn before(&self, at: SurfacePoint, side: f32) -> SurfacePoint {
-        let error = SPHERE_ERROR * (self.center().abs().max_element() + self.radius);
-        let p = at.p + at.n * (side * error);
+        let p = at.p + at.n * (side * self.error());
         SurfacePoint { p, ..at }
+    }
+
+    /// More than the distance by which rounding moves a point of the surface.
+    fn error(&self) -> f32 {
+        SPHERE_ERROR * (self.center().abs().max_element() + self.radius)
     }
 
     /// Where the line through `origin` enters the sphere and where it leaves it: distances along
@@ -249,9 +253,13 @@ impl Shape for Sphere {
     fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
         let [enters, leaves] = self.crossings(origin, direction)?;
         let to_center = self.center() - origin;
-        let outside = to_center.length_squared() > self.radius * self.radius;
-        let (t, n) = if outside { enters } else { leaves };
-        (t > 0.0).then(|| self.at(n))
+        let power = to_center.length_squared() - self.radius * self.radius;
+        // Rounding decides where a ray enters that starts on the sphere; whether it goes inward is
+        // certain.
+        let slack = 2.0 * self.radius * self.error();
+        let (t, n) = if power > slack { enters } else { leaves };
+        let leads_away = power >= -slack && to_center.dot(direction) <= 0.0;
+        (t > 0.0 && !leads_away).then(|| self.at(n))
     }
 }
 

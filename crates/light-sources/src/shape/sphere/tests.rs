@@ -121,3 +121,30 @@ fn the_rim_is_met() {
         }
     }
 }
+
+/// A ray inward from a point of the surface leaves through the other side, and one outward meets
+/// nothing, wherever rounding has put the point.
+#[test]
+fn rays_from_the_surface_meet_the_far_side() {
+    for center in [Vec3::ZERO, Vec3::new(1.0, -30.0, 4.0)] {
+        let sphere = sphere(center, 1.3);
+        for (i, u) in (0u16..).zip(numbers()) {
+            let at = sphere.sample(u).expect("a point").at;
+            for tilt in [-1.0, -0.5, -0.1, 0.1, 0.5, 1.0] {
+                let (x, y) = at.n.any_orthonormal_pair();
+                let (sin, cos) = sin_cos(f32::from(i));
+                let around = (x * cos + y * sin) * safe_sqrt(1.0 - tilt * tilt);
+                let direction = around + at.n * tilt;
+                let hit = sphere.hit(at.p, direction);
+                if tilt > 0.0 {
+                    assert_eq!(hit, None, "outward from {}", at.p);
+                    continue;
+                }
+                let chord = hit.expect("the far side").p - at.p;
+                let along = -2.0 * 1.3 * tilt;
+                let off = (chord - direction * along).length();
+                assert!(off < 1e-3, "{off} off from {}, {tilt}", at.p);
+            }
+        }
+    }
+}
