@@ -15,6 +15,7 @@ use crate::surface_point::SurfacePoint;
 use crate::surface_texture::SurfaceTexture;
 use crate::texture::Texture;
 use crate::texture_mapping::TextureMapping;
+use light_math::float::positive_product;
 
 /// The diffuse emission of a surface of any shape, stored once for all triangles of a mesh.
 #[derive(Clone, Debug)]
@@ -228,11 +229,13 @@ impl<C: ColorModel> DiffuseEmission<C> {
     /// As [`strength`](Self::strength), of a shape with this area and [`mean`](Self::mean).
     pub(crate) fn strength_of(&self, area: f32, mean: Vec3) -> f32 {
         let radiance = match &self.color {
-            Color::Uniform(radiance) => radiance.maximum() * mean.x,
-            Color::Image { tint, scale, .. } => (mean * *tint).max_element() * *scale,
+            Color::Uniform(radiance) => positive_product(radiance.maximum(), mean.x),
+            Color::Image { tint, scale, .. } => {
+                positive_product((mean * *tint).max_element(), *scale)
+            }
         };
         // In this order an intermediate result overflows only if the power does.
-        radiance * (PI * area)
+        positive_product(radiance, PI * area)
     }
 
     /// The texture of the surface; `None` without one.

@@ -114,6 +114,9 @@ impl<C: ColorModel> GoniometricLight<C> {
         if !(brightest * intensity.maximum()).is_finite() {
             return Err(EmissionError::Amount.into());
         }
+        if !(4.0 * PI * intensity.maximum() * mean).is_finite() {
+            return Err(EmissionError::Power.into());
+        }
         // Texels of a coarse image are divided, so that a part has nearly one direction.
         let parts = PARTS.div_ceil(width);
         let rows = width * parts;

@@ -78,7 +78,7 @@ impl<C: ColorModel> PointLight<C> {
         let scale = desc.amount.scale(intensity, intensity * (4.0 * PI))?;
         Ok(Self {
             position: desc.position,
-            intensity: ScaledEmission::new(desc.emission, scale)?,
+            intensity: ScaledEmission::new(desc.emission, scale)?.with_solid_angle(4.0 * PI)?,
             media: desc.media,
         })
     }

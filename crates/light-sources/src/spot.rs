@@ -59,7 +59,8 @@ impl<C: ColorModel> SpotLight<C> {
             end,
             cos_theta_o: cos_rounded_down(desc.falloff_start),
             cos_theta_e: cos_rounded_down(desc.angle - desc.falloff_start),
-            intensity: ScaledEmission::new(desc.emission, scale)?,
+            // The bounds are those of an isotropic light.
+            intensity: ScaledEmission::new(desc.emission, scale)?.with_solid_angle(4.0 * PI)?,
             media: desc.media,
         })
     }
@@ -199,6 +200,7 @@ mod tests {
     use crate::glam::Affine3A;
     use crate::light::Light;
     use crate::rgb::Rgb;
+    use crate::scaled_emission::EmissionError;
     use light_bounds::{LightExtent, LightSampleContext};
 
     fn spot(angle: f32, falloff_start: f32) -> Result<SpotLight<Rgb>, SpotLightError> {
@@ -227,6 +229,14 @@ mod tests {
             );
         }
         assert!(spot(0.3, 0.3).is_ok(), "a hard rim");
+        let bright = |intensity| {
+            let amount = IntensityAmount::Radiometric(intensity);
+            let desc = SpotLightDesc::<Rgb>::new(Affine3A::IDENTITY, 1e-3, Vec3::ONE, amount);
+            SpotLight::new(desc).err()
+        };
+        let expected = SpotLightError::Emission(EmissionError::Power);
+        assert_eq!(bright(1e38), Some(expected), "samplers refuse its bounds");
+        assert_eq!(bright(2e37), None, "2.5e38 W");
     }
 
     #[test]

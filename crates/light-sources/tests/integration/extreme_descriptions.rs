@@ -62,6 +62,36 @@ fn a_point_light_gives_no_more_than_a_float_holds() {
     }
 }
 
+/// Samplers refuse bounds of infinite power.
+#[test]
+fn lights_of_infinite_power_are_refused() {
+    let build = |desc: LightDesc<Rgb>| {
+        let mut lights = LightSetBuilder::<Rgb>::new(scene());
+        lights.add(desc).map_err(|error| error.to_string())?;
+        let extents = lights.build().extents();
+        let (LightExtent::Bounded(bounds) | LightExtent::Lobe(bounds, _)) = extents[0] else {
+            panic!("a light at a point");
+        };
+        assert_eq!(bounds.validate(), Ok(()), "{bounds:?}");
+        Ok::<(), String>(())
+    };
+    let web = Image::from_f32([1, 1], Channels::Gray, [1.0]).expect("an image");
+    for (intensity, is_valid) in [(2e37, true), (3e37, false), (3e38, false)] {
+        let amount = IntensityAmount::Radiometric(intensity);
+        let at = Affine3A::IDENTITY;
+        let descs: [LightDesc<Rgb>; 3] = [
+            PointLightDesc::new(Vec3::ZERO, Vec3::ONE, amount).into(),
+            SpotLightDesc::new(at, 1e-3, Vec3::ONE, amount).into(),
+            GoniometricLightDesc::new(at, web.clone(), Vec3::ONE, amount).into(),
+        ];
+        for desc in descs {
+            let refused = build(desc.clone()).err();
+            assert_eq!(refused.is_none(), is_valid, "{desc:?}: {refused:?}");
+            assert!(refused.is_none_or(|e| e.contains("amount: too large")));
+        }
+    }
+}
+
 #[test]
 fn no_ray_leaves_along_a_portal() {
     let texels = Image::from_f32([1, 1], Channels::Gray, [1.0]).expect("an image");

@@ -283,3 +283,16 @@ fn samples_at_the_diagonal_of_a_flat_quad_have_the_queried_density() {
     }
     assert!(taken > 900, "{taken} of 1,024");
 }
+
+/// A power below the smallest float must not hide a light from samplers.
+#[test]
+fn a_faint_surface_has_a_power() {
+    let corners = [Vec3::ZERO, Vec3::X * 1e-18, Vec3::Y * 1e-18];
+    let triangle = Triangle::new(corners, Triangle::DEFAULT_UV).expect("an area");
+    for (radiance, expected) in [(1e-10, f32::MIN_POSITIVE), (0.0, 0.0)] {
+        let color = SurfaceColor::Uniform(Vec3::ONE);
+        let desc = DiffuseEmissionDesc::new(color, RadianceAmount::Radiometric(radiance));
+        let emission = DiffuseEmission::<Rgb>::new(desc, [triangle]).expect("an emission");
+        assert_eq!(emission.strength(&triangle), expected, "{radiance}");
+    }
+}
