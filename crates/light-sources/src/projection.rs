@@ -84,8 +84,8 @@ const RESOLVED: f32 = 0.125;
 pub enum ProjectionLightError {
     /// `transform` is not rigid.
     Transform(RigidTransformError),
-    /// `fov` does not lie in `(0, pi)`, or so near to an end that the picture has a size of zero or
-    /// infinity.
+    /// `fov` does not lie in `(0, pi)`, or so near to an end that single precision has no picture:
+    /// its size is infinite, or below the rounding of directions.
     Fov,
     /// `amount` is negative, not finite, or too large for the picture.
     Emission(EmissionError),
@@ -264,7 +264,9 @@ impl fmt::Display for ProjectionLightError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Transform(error) => error.fmt(f),
-            Self::Fov => f.write_str("fov: must lie in (0, pi)"),
+            Self::Fov => f.write_str(
+                "fov: must lie in (0, pi), not so near to an end that single precision has no picture",
+            ),
             Self::Emission(error) => error.fmt(f),
         }
     }

@@ -197,7 +197,9 @@ impl fmt::Display for SunLightError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Direction => f.write_str("direction: must be finite and not zero"),
-            Self::AngularDiameter => f.write_str("angular_diameter: must lie in (0, pi]"),
+            Self::AngularDiameter => f.write_str(
+                "angular_diameter: must lie in (0, pi], with a solid angle that is a number",
+            ),
             Self::Emission(error) => error.fmt(f),
         }
     }

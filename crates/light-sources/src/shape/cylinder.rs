@@ -230,7 +230,7 @@ impl fmt::Display for CylinderError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Radius => "radius: must be finite and positive",
-            Self::Length => "length: must be finite and positive",
+            Self::Length => "length: must be positive, with an area that is a number",
         })
     }
 }

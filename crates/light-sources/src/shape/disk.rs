@@ -26,7 +26,7 @@ pub struct Disk {
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[non_exhaustive]
 pub enum DiskError {
-    /// The radius is not positive and finite.
+    /// The radius is not positive, or so small or large that the area of the whole disk is none.
     Radius,
     /// The inner radius is negative, not below the radius, or so near to it that the area rounds to
     /// zero.
@@ -44,7 +44,8 @@ impl Disk {
         radius: f32,
         inner_radius: f32,
     ) -> Result<Self, DiskError> {
-        if !(radius > 0.0 && (radius * radius).is_finite() && radius * radius > 0.0) {
+        let whole = PI * radius * radius;
+        if !(radius > 0.0 && whole.is_finite() && (1.0 / whole).is_finite()) {
             return Err(DiskError::Radius);
         }
         let disk = Self {
@@ -185,8 +186,8 @@ impl Shape for Disk {
 impl fmt::Display for DiskError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::Radius => "radius: must be finite and positive",
-            Self::InnerRadius => "inner_radius: must lie in [0, radius)",
+            Self::Radius => "radius: must be positive, with an area that is a number",
+            Self::InnerRadius => "inner_radius: must lie in [0, radius) and leave an area",
         })
     }
 }

@@ -102,6 +102,14 @@ fn shapes() {
         (
             ShapeDesc::Disk {
                 transform,
+                radius: 1e-21,
+                inner_radius: 0.0,
+            },
+            "disk, radius: must be positive, with an area",
+        ),
+        (
+            ShapeDesc::Disk {
+                transform,
                 radius: 1.0,
                 inner_radius: 1.0,
             },
@@ -123,11 +131,19 @@ fn shapes() {
             },
             "cylinder, length",
         ),
+        (
+            ShapeDesc::Cylinder {
+                transform,
+                radius: 1e-21,
+                length: 1e-20,
+            },
+            "cylinder, length: must be positive, with an area",
+        ),
     ];
     for (shape, field) in cases {
         let emission = emission();
         let said = refusal(LightDesc::Area(AreaLightDesc { shape, emission }));
-        let expected = format!("area light, {field}: ");
+        let expected = format!("area light, {field}");
         assert!(said.starts_with(&expected), "{shape:?}: {said}");
     }
 }
@@ -216,9 +232,10 @@ fn lights_with_pictures() {
             media: MediumInterface::default(),
         }))
     };
-    for fov in [0.0, core::f32::consts::PI, -1.0, f32::NAN] {
+    for fov in [0.0, core::f32::consts::PI, -1.0, f32::NAN, 1e-6] {
         let said = projection(fov);
         assert!(said.starts_with("projection light, fov: "), "{fov}: {said}");
+        assert!(said.contains("no picture"), "{fov}: {said}");
     }
 
     let sky = |map, amount| {
