@@ -136,16 +136,16 @@ impl PhotometricWeb {
     /// The map of the square is that of [`light_math::equal_area`].
     #[must_use]
     pub fn distribution(&self, size: u32) -> Vec<f32> {
-        /// Samples per side of a texel.
-        const PLACES: u32 = 4;
+        // Samples per side of a texel: at least 1024 a side of the square.
+        let places = 1024_u32.div_ceil(size.max(1)).clamp(2, 4);
         let peak = self.peak_candelas();
         let part = if peak > 0.0 { 1.0 / peak } else { 0.0 };
         let place = |x: u32, y: u32, i: u32| {
-            let inside = Vec2::new((i % PLACES) as f32, (i / PLACES) as f32) + 0.5;
-            let texel = Vec2::new(x as f32, y as f32) + inside / PLACES as f32;
+            let inside = Vec2::new((i % places) as f32, (i / places) as f32) + 0.5;
+            let texel = Vec2::new(x as f32, y as f32) + inside / places as f32;
             part * self.toward(square_to_sphere(texel / size as f32))
         };
-        let count = PLACES * PLACES;
+        let count = places * places;
         let mean = |x, y| (0..count).map(|i| place(x, y, i)).sum::<f32>() / count as f32;
         (0..size)
             .flat_map(|y| (0..size).map(move |x| mean(x, y)))

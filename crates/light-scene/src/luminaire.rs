@@ -62,21 +62,32 @@ pub fn in_luminaire(path: &Path, message: &photometry::Diagnostic) -> Diagnostic
 }
 
 /// A goniometric light with the distribution and the luminous power of `web`: an equal-area square
-/// of `size` texels a side, at least 1.
-///
-/// # Panics
-/// When `size` is 0.
+/// of texels smaller than the steps of the web.
 #[must_use]
 pub(crate) fn goniometric_light<C: ColorModel>(
     web: &PhotometricWeb,
     transform: Affine3A,
     emission: C::Emission,
-    size: u32,
 ) -> GoniometricLightDesc<C> {
+    let size = map_size(web);
     let distribution = Image::from_f32([size, size], Channels::Gray, web.distribution(size));
     let distribution = distribution.expect("a square of parts of the peak");
     let amount = IntensityAmount::LuminousPower(Lumen(web.total_lumens()));
     GoniometricLightDesc::new(transform, distribution, emission, amount)
+}
+
+/// Texels per side of the map of a web, by the smallest step between its angles: a texel of 1024 a
+/// side is 0.2 degrees wide, so that a beam as narrow as one degree keeps its peak.
+fn map_size(web: &PhotometricWeb) -> u32 {
+    let axes = [web.vertical(), web.horizontal()];
+    let steps = axes.into_iter().flat_map(|angles| angles.windows(2));
+    let smallest = steps.map(|step| step[1] - step[0]).fold(180.0, f32::min);
+    // Steps are differences of rounded angles.
+    match smallest * 1.001 {
+        5.0.. => 256,
+        2.5.. => 512,
+        _ => 1024,
+    }
 }
 
 #[cfg(test)]
@@ -164,7 +175,7 @@ mod tests {
         let web = PhotometricWeb::new(WebType::C, &steps, &turn, &candelas).expect("a web");
         let mut builder =
             LightSetBuilder::<Rgb>::new(SceneSphere::new(Vec3::ZERO, 1.0).expect("a sphere"));
-        let desc = goniometric_light::<Rgb>(&web, Affine3A::IDENTITY, Vec3::ONE, 256);
+        let desc = goniometric_light::<Rgb>(&web, Affine3A::IDENTITY, Vec3::ONE);
         builder.add(LightDesc::Goniometric(desc)).expect("a light");
         let set = builder.build();
         let light = set.get(LightId(0)).expect("one");
@@ -185,6 +196,25 @@ mod tests {
                 0.03,
                 "candela at 1 m are lux",
             );
+        }
+    }
+
+    /// A beam as narrow as a step of its table: only the first value is not 0.
+    #[test]
+    fn narrow_beams_keep_their_peak() {
+        for (step, size) in [(10.0f32, 256), (5.0, 256), (2.5, 512), (1.0, 1024)] {
+            let rows = (90.0 / step) as u16;
+            let vertical: Vec<f32> = (0..=rows).map(|i| step * f32::from(i)).collect();
+            let candelas: Vec<f32> = (0..=rows).map(|i| f32::from(u8::from(i == 0))).collect();
+            let web = PhotometricWeb::new(WebType::C, &vertical, &[0.0], &candelas);
+            let web = web.expect("a web");
+            let light = goniometric_light::<Rgb>(&web, Affine3A::IDENTITY, Vec3::ONE);
+            assert_eq!(light.distribution.size(), [size; 2], "{step}");
+            let peak = light.distribution.texels().map(|texel| texel.x);
+            let relative = peak.fold(0.0, f32::max) / light.distribution.mean().x;
+            let exact = 4.0 * core::f32::consts::PI * web.peak_candelas() / web.total_lumens();
+            // A texel beside the peak, as wide as a fifth of a step of one degree.
+            near(relative, exact, 0.12, "peak");
         }
     }
 }

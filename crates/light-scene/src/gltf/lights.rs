@@ -15,9 +15,6 @@ use crate::luminaire::read_next_to;
 use crate::text::text_of;
 use crate::{Diagnostic, goniometric_light};
 
-/// Texels per side of the map of a measured luminaire.
-const WEB_SIZE: u32 = 256;
-
 impl<'a> Reader<'a> {
     /// The lights that extensions attach to a node.
     pub(super) fn lights(
@@ -81,7 +78,7 @@ impl<'a> Reader<'a> {
         let color = color(extension)?.min(Vec3::ONE);
         let multiplier = extension.amount_or("multiplier", 1.0)?;
         let transform = rigid(node, transform)? * Affine3A::from_quat(turned);
-        let mut light = goniometric_light(&web, transform, color, WEB_SIZE);
+        let mut light = goniometric_light(&web, transform, color);
         // A tint reduces the power.
         let lumens = web.total_lumens() * multiplier * rec709_luminance(color);
         light.amount = IntensityAmount::LuminousPower(Lumen(lumens));

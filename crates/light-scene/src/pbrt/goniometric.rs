@@ -12,9 +12,6 @@ use crate::glam::{Affine3A, Mat3A, Vec3};
 use crate::text::text_of;
 use crate::{Camera, Diagnostic, goniometric_light, in_luminaire, parse_luminaire};
 
-/// Texels per side of the map of a measured luminaire.
-const WEB_SIZE: u32 = 256;
-
 impl Reader {
     /// A light with a measured distribution: an equal-area image or, here only, the file of a
     /// luminaire.
@@ -88,7 +85,7 @@ impl Reader {
             .map(|watts| watts * 683.0);
         let lumens = power.unwrap_or_else(|| luminaire.web.total_lumens());
         let transform = transform * self.web_to_light();
-        let mut light = goniometric_light(&luminaire.web, transform, color, WEB_SIZE);
+        let mut light = goniometric_light(&luminaire.web, transform, color);
         let tint = rec709_luminance(color);
         light.amount = IntensityAmount::LuminousPower(Lumen(lumens * tint));
         light.media = self.light_media();
