@@ -61,33 +61,32 @@ pub fn in_luminaire(path: &Path, message: &photometry::Diagnostic) -> Diagnostic
     )
 }
 
-/// A goniometric light with the distribution and the luminous power of `web`: an equal-area square
-/// of texels smaller than the steps of the web.
+/// Texels per side of the map of a luminaire: 0.8 degrees each, and twice and four times as fine for
+/// beams whose peak that would flatten.
+const MAP_SIZES: [u32; 3] = [256, 512, 1024];
+
+/// The least part of its peak that a web keeps in a map, unless the map is the largest.
+const KEPT: f32 = 0.97;
+
+/// A goniometric light with the distribution and the luminous power of `web`, in an equal-area map as
+/// fine as its beam needs.
 #[must_use]
 pub(crate) fn goniometric_light<C: ColorModel>(
     web: &PhotometricWeb,
     transform: Affine3A,
     emission: C::Emission,
 ) -> GoniometricLightDesc<C> {
-    let size = map_size(web);
-    let distribution = Image::from_f32([size, size], Channels::Gray, web.distribution(size));
+    let (mut size, mut parts) = (0, Vec::new());
+    for finer in MAP_SIZES {
+        (size, parts) = (finer, web.distribution(finer));
+        if parts.iter().any(|&part| part >= KEPT) {
+            break;
+        }
+    }
+    let distribution = Image::from_f32([size, size], Channels::Gray, parts);
     let distribution = distribution.expect("a square of parts of the peak");
     let amount = IntensityAmount::LuminousPower(Lumen(web.total_lumens()));
     GoniometricLightDesc::new(transform, distribution, emission, amount)
-}
-
-/// Texels per side of the map of a web, by the smallest step between its angles: a texel of 1024 a
-/// side is 0.2 degrees wide, so that a beam as narrow as one degree keeps its peak.
-fn map_size(web: &PhotometricWeb) -> u32 {
-    let axes = [web.vertical(), web.horizontal()];
-    let steps = axes.into_iter().flat_map(|angles| angles.windows(2));
-    let smallest = steps.map(|step| step[1] - step[0]).fold(180.0, f32::min);
-    // Steps are differences of rounded angles.
-    match smallest * 1.001 {
-        5.0.. => 256,
-        2.5.. => 512,
-        _ => 1024,
-    }
 }
 
 #[cfg(test)]
@@ -199,22 +198,30 @@ mod tests {
         }
     }
 
-    /// A beam as narrow as a step of its table: only the first value is not 0.
+    /// Beams as narrow as a step of their table, and a wide one with a fine table.
     #[test]
-    fn narrow_beams_keep_their_peak() {
-        for (step, size) in [(10.0f32, 256), (5.0, 256), (2.5, 512), (1.0, 1024)] {
+    fn maps_are_as_fine_as_their_beams() {
+        for (step, reach, size, part) in [
+            (1.0f32, 60.0, 256, 0.02),
+            (10.0, 10.0, 512, 0.05),
+            (5.0, 5.0, 1024, 0.03),
+            (2.5, 2.5, 1024, 0.05),
+            (1.0, 1.0, 1024, 0.12),
+        ] {
             let rows = (90.0 / step) as u16;
             let vertical: Vec<f32> = (0..=rows).map(|i| step * f32::from(i)).collect();
-            let candelas: Vec<f32> = (0..=rows).map(|i| f32::from(u8::from(i == 0))).collect();
+            let candelas: Vec<f32> = vertical
+                .iter()
+                .map(|x| (1.0 - x / reach).max(0.0))
+                .collect();
             let web = PhotometricWeb::new(WebType::C, &vertical, &[0.0], &candelas);
             let web = web.expect("a web");
             let light = goniometric_light::<Rgb>(&web, Affine3A::IDENTITY, Vec3::ONE);
-            assert_eq!(light.distribution.size(), [size; 2], "{step}");
+            assert_eq!(light.distribution.size(), [size; 2], "{step}, {reach}");
             let peak = light.distribution.texels().map(|texel| texel.x);
             let relative = peak.fold(0.0, f32::max) / light.distribution.mean().x;
             let exact = 4.0 * core::f32::consts::PI * web.peak_candelas() / web.total_lumens();
-            // A texel beside the peak, as wide as a fifth of a step of one degree.
-            near(relative, exact, 0.12, "peak");
+            near(relative, exact, part, "peak");
         }
     }
 }

@@ -117,7 +117,7 @@ fn broken_files_give_one_clear_line() {
         ),
         (
             "WorldBegin\nLightSource \"point\" \"rgb I\" [1e38 1e38 1e38]",
-            "a.pbrt:2: expected a light of finite power",
+            "a.pbrt:2: point light, amount: too large, the power of the light is not finite",
         ),
         (
             "WorldBegin\nLightSource \"distant\" \"float illuminance\" 3e38 \"float scale\" 2",
