@@ -208,8 +208,8 @@ mod tests {
             (2.5, 2.5, 1024, 0.05),
             (1.0, 1.0, 1024, 0.12),
         ] {
-            let rows = (90.0 / step) as u16;
-            let vertical: Vec<f32> = (0..=rows).map(|i| step * f32::from(i)).collect();
+            let rows = (0..=90u8).map(|i| step * f32::from(i));
+            let vertical: Vec<f32> = rows.take_while(|&angle| angle <= 90.0).collect();
             let candelas: Vec<f32> = vertical
                 .iter()
                 .map(|x| (1.0 - x / reach).max(0.0))

@@ -2,9 +2,9 @@ use core::error::Error;
 use core::fmt;
 
 use super::{
-    BilinearPatch, BilinearPatchError, Cylinder, CylinderError, DirectionSample, Disk, DiskError,
-    Rectangle, RectangleError, Shape, ShapeSample, Sphere, SphereError, Triangle, TriangleError,
-    UvArea,
+    BilinearPatch, BilinearPatchError, Cylinder, CylinderError, Disk, DiskError, Rectangle,
+    RectangleError, Shape, ShapeDirectionSample, ShapeSample, Sphere, SphereError, Triangle,
+    TriangleError, UvArea,
 };
 use crate::glam::{Affine3A, Vec2, Vec3};
 use crate::rigid_transform::{RigidTransform, RigidTransformError};
@@ -211,7 +211,7 @@ impl Shape for AnyShape {
         for_each_shape!(self, shape => shape.pdf(at))
     }
 
-    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
+    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<ShapeDirectionSample> {
         for_each_shape!(self, shape => shape.sample_toward(ctx, u))
     }
 

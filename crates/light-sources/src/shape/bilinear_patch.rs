@@ -4,7 +4,7 @@ use super::normal::{normal_length, unit_normal};
 use super::patch_area;
 use super::rounding::is_within_rounding;
 use super::solid_angle::{LEAST_DENSITY, area_to_solid_angle};
-use super::{DirectionSample, Shape, ShapeSample, UvArea, UvDensity};
+use super::{Shape, ShapeDirectionSample, ShapeSample, UvArea, UvDensity};
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;
@@ -228,12 +228,12 @@ impl Shape for BilinearPatch {
 
     /// Of a patch that is not flat, a point by area, unless another part of the patch hides it, or
     /// it is at such a grazing angle that a ray toward it misses.
-    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
+    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<ShapeDirectionSample> {
         if let Some(flat) = self.flat(ctx) {
             let sample = flat.sample(ctx, u)?;
             let (uv, _) = self.intersect(ctx.p, sample.wi)?;
             let at = SurfacePoint { uv, ..sample.at };
-            return Some(DirectionSample { at, ..sample });
+            return Some(ShapeDirectionSample { at, ..sample });
         }
         let ShapeSample { at, .. } = self.sample(u)?;
         // Not by way of `at.p`, whose rounding grows with the coordinates of the scene.
@@ -248,9 +248,9 @@ impl Shape for BilinearPatch {
             }
             // At the silhouette a rounding of the direction changes the density by much.
             let (_, pdf) = self.by_area(met, wi * t)?;
-            return Some(DirectionSample { at, wi, pdf });
+            return Some(ShapeDirectionSample { at, wi, pdf });
         }
-        Some(DirectionSample { at, wi, pdf })
+        Some(ShapeDirectionSample { at, wi, pdf })
     }
 
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {

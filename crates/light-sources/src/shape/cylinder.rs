@@ -7,7 +7,7 @@ use super::cylinder_view::CylinderView;
 use super::rounding::HIT_ERROR;
 use super::solid_angle::area_to_solid_angle;
 use super::sphere::{OWN_ERROR, SPHERE_ERROR};
-use super::{DirectionSample, Shape, ShapeSample};
+use super::{Shape, ShapeDirectionSample, ShapeSample};
 use crate::glam::{Vec2, Vec3};
 use crate::rigid_transform::RigidTransform;
 use crate::surface_point::SurfacePoint;
@@ -177,12 +177,12 @@ impl Shape for Cylinder {
         1.0 / self.area()
     }
 
-    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
+    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<ShapeDirectionSample> {
         if self.is_own(ctx) {
             let ShapeSample { at, pdf } = self.sample(u)?;
             let (wi, pdf) = area_to_solid_angle(pdf, at.p - ctx.p, at.n)?;
             // From outside, where rounding has put an own point, a line first enters.
-            return (at.n.dot(wi) > 0.0).then(|| DirectionSample {
+            return (at.n.dot(wi) > 0.0).then(|| ShapeDirectionSample {
                 at: self.before(at, wi),
                 wi,
                 pdf,
@@ -197,7 +197,7 @@ impl Shape for Cylinder {
             n: self.transform.vector(n),
             uv: Vec2::new(azimuth(n), (sample.height / self.length).clamp(0.0, 1.0)),
         };
-        Some(DirectionSample {
+        Some(ShapeDirectionSample {
             at: self.before(at, wi),
             wi,
             pdf: sample.pdf,

@@ -5,7 +5,7 @@ use core::fmt;
 use super::azimuth::azimuth;
 use super::rounding::{hit_slack, with_density_of_ray};
 use super::solid_angle::area_to_solid_angle;
-use super::{DirectionSample, Shape, ShapeSample, UvArea, UvDensity};
+use super::{Shape, ShapeDirectionSample, ShapeSample, UvArea, UvDensity};
 use crate::glam::{Vec2, Vec3};
 use crate::rigid_transform::RigidTransform;
 use crate::surface_point::SurfacePoint;
@@ -147,11 +147,11 @@ impl Shape for Disk {
         1.0 / self.area()
     }
 
-    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
+    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<ShapeDirectionSample> {
         let ShapeSample { at, pdf } = self.sample(u)?;
         let to_light = at.p - ctx.p;
         let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
-        with_density_of_ray(self, ctx, to_light, DirectionSample { at, wi, pdf })
+        with_density_of_ray(self, ctx, to_light, ShapeDirectionSample { at, wi, pdf })
     }
 
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {

@@ -1,6 +1,6 @@
 use super::receiver_cosine::ReceiverCosine;
 use super::solid_angle::SMALL;
-use super::{DirectionSample, Shape, Triangle};
+use super::{Shape, ShapeDirectionSample, Triangle};
 use crate::glam::{Vec2, Vec3};
 use light_bounds::LightSampleContext;
 use light_math::solid_angle;
@@ -35,7 +35,7 @@ impl FlatQuad {
 
     /// A direction toward the quadrilateral; the point on it has the parameters of a triangle. The
     /// density is that of the direction as it is rounded, which may pass the other triangle.
-    pub(super) fn sample(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
+    pub(super) fn sample(&self, ctx: &LightSampleContext, u: Vec2) -> Option<ShapeDirectionSample> {
         let is_first = u.x < self.first;
         let (triangle, start, chance) = if is_first {
             (&self.triangles[0], 0.0, self.first)
@@ -47,7 +47,7 @@ impl FlatQuad {
         let x = (u.x - start) / chance;
         let sample = triangle.sample_toward(ctx, Vec2::new(x, u.y))?;
         let pdf = self.pdf(ctx, sample.wi);
-        (pdf > 0.0).then_some(DirectionSample { pdf, ..sample })
+        (pdf > 0.0).then_some(ShapeDirectionSample { pdf, ..sample })
     }
 
     /// Where rounding lets a direction pass both triangles, the larger density: both have nearly

@@ -29,7 +29,7 @@ pub use constants::SHAPE_CONSTANTS;
 pub use cylinder::{Cylinder, CylinderError};
 pub use disk::{Disk, DiskError};
 pub use rectangle::{Rectangle, RectangleError};
-pub use shape_trait::{DirectionSample, Shape, ShapeSample};
+pub use shape_trait::{Shape, ShapeDirectionSample, ShapeSample};
 pub use sphere::{Sphere, SphereError};
 pub use triangle::Triangle;
 pub use triangle_error::TriangleError;

@@ -5,7 +5,7 @@ use super::normal::unit_normal;
 use super::receiver_cosine::ReceiverCosine;
 use super::rounding::{hit_slack, with_density_of_ray};
 use super::solid_angle::{LEAST_DENSITY, SMALL, area_to_solid_angle};
-use super::{DirectionSample, Shape, ShapeSample};
+use super::{Shape, ShapeDirectionSample, ShapeSample};
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;
@@ -144,18 +144,18 @@ impl Shape for Rectangle {
         1.0 / self.area()
     }
 
-    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
+    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<ShapeDirectionSample> {
         let Some(seen) = self.seen_from(ctx.p) else {
             let (at, to_light) = (self.at(u), self.toward(ctx.p, u));
             let (wi, pdf) = self.by_area(to_light)?;
-            return with_density_of_ray(self, ctx, to_light, DirectionSample { at, wi, pdf });
+            return with_density_of_ray(self, ctx, to_light, ShapeDirectionSample { at, wi, pdf });
         };
         let (u, pdf) = self.receiver_cosine(ctx).sample(u);
         let uv = seen.sample(u);
         let (at, to_light) = (self.at(uv), self.toward(ctx.p, uv));
         let wi = unit_normal(to_light)?;
         let pdf = pdf * seen.pdf();
-        with_density_of_ray(self, ctx, to_light, DirectionSample { at, wi, pdf })
+        with_density_of_ray(self, ctx, to_light, ShapeDirectionSample { at, wi, pdf })
     }
 
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {

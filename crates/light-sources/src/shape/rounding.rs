@@ -1,6 +1,6 @@
 //! Rounding of the places where directions meet a surface.
 
-use super::{DirectionSample, Shape};
+use super::{Shape, ShapeDirectionSample};
 use crate::glam::Vec3;
 use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;
@@ -30,8 +30,8 @@ pub(super) fn with_density_of_ray(
     shape: &impl Shape,
     ctx: &LightSampleContext,
     to_light: Vec3,
-    sample: DirectionSample,
-) -> Option<DirectionSample> {
+    sample: ShapeDirectionSample,
+) -> Option<ShapeDirectionSample> {
     if !is_within_rounding(sample.wi, to_light, &sample.at) {
         return Some(sample);
     }
@@ -42,10 +42,10 @@ pub(super) fn with_density_of_ray(
 fn queried(
     shape: &impl Shape,
     ctx: &LightSampleContext,
-    sample: DirectionSample,
-) -> Option<DirectionSample> {
+    sample: ShapeDirectionSample,
+) -> Option<ShapeDirectionSample> {
     let pdf = shape.pdf_toward(ctx, sample.wi);
-    (pdf > 0.0).then_some(DirectionSample { pdf, ..sample })
+    (pdf > 0.0).then_some(ShapeDirectionSample { pdf, ..sample })
 }
 
 /// The rounding error of a hit, as a part of the coordinates that were subtracted.

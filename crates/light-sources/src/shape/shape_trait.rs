@@ -29,7 +29,7 @@ pub trait Shape {
 
     /// A point of the surface as seen from `ctx.p`, with the density of its direction per solid
     /// angle; `None` when the surface is seen from its edge, or not at all.
-    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample>;
+    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<ShapeDirectionSample>;
 
     /// Density per solid angle with which [`sample_toward`](Self::sample_toward) chooses `wi`; 0
     /// when it misses.
@@ -65,7 +65,7 @@ impl<S: Shape> Shape for &S {
         (**self).pdf(at)
     }
 
-    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
+    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<ShapeDirectionSample> {
         (**self).sample_toward(ctx, u)
     }
 
@@ -89,7 +89,7 @@ pub struct ShapeSample {
 
 /// A point of a surface, sampled by solid angle.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct DirectionSample {
+pub struct ShapeDirectionSample {
     /// The point.
     pub at: SurfacePoint,
     /// Unit direction toward it.

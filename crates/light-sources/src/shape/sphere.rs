@@ -4,7 +4,7 @@ use core::fmt;
 
 use super::azimuth::azimuth;
 use super::solid_angle::area_to_solid_angle;
-use super::{DirectionSample, Shape, ShapeSample, UvArea, UvDensity};
+use super::{Shape, ShapeDirectionSample, ShapeSample, UvArea, UvDensity};
 use crate::glam::{Vec2, Vec3};
 use crate::rigid_transform::RigidTransform;
 use crate::surface_point::SurfacePoint;
@@ -196,7 +196,7 @@ impl Shape for Sphere {
         1.0 / self.area()
     }
 
-    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
+    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<ShapeDirectionSample> {
         let Some(cone) = self.cone(ctx) else {
             let ShapeSample { at, pdf } = self.sample(u)?;
             let (wi, pdf) = area_to_solid_angle(pdf, at.p - ctx.p, at.n)?;
@@ -205,7 +205,7 @@ impl Shape for Sphere {
                 return None;
             }
             let at = self.before(at, -1.0);
-            return Some(DirectionSample { at, wi, pdf });
+            return Some(ShapeDirectionSample { at, wi, pdf });
         };
         let pdf = uniform_cone::pdf(cone.one_minus_cos_max);
         if !(pdf > 0.0 && pdf.is_finite()) {
@@ -231,7 +231,7 @@ impl Shape for Sphere {
             .from_local(-(around * sin_alpha + Vec3::Z * cos_alpha))
             .normalize();
         let wi = frame.from_local(Vec3::Z * cos - around * sin);
-        Some(DirectionSample {
+        Some(ShapeDirectionSample {
             at: self.before(self.at(n), 1.0),
             wi: wi.normalize(),
             pdf,

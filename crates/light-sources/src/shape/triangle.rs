@@ -2,7 +2,7 @@ use super::normal::{has_digits, normal_length, unit_normal};
 use super::receiver_cosine::ReceiverCosine;
 use super::rounding::with_density_of_ray;
 use super::solid_angle::{SMALL, area_to_solid_angle};
-use super::{DirectionSample, Shape, ShapeSample, TriangleError, UvArea};
+use super::{Shape, ShapeDirectionSample, ShapeSample, TriangleError, UvArea};
 use crate::glam::{Vec2, Vec3};
 use crate::surface_point::SurfacePoint;
 use light_bounds::LightSampleContext;
@@ -202,13 +202,13 @@ impl Shape for Triangle {
     }
 
     #[inline]
-    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<DirectionSample> {
+    fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<ShapeDirectionSample> {
         let Some(seen) = self.seen_from(ctx.p) else {
             let (n, inv_area) = self.normal_and_inv_area()?;
             let b = uniform_triangle::sample(u);
             let (at, to_light) = (self.at(b, n), self.toward(ctx.p, b));
             let (wi, pdf) = area_to_solid_angle(inv_area, to_light, n)?;
-            return with_density_of_ray(self, ctx, to_light, DirectionSample { at, wi, pdf });
+            return with_density_of_ray(self, ctx, to_light, ShapeDirectionSample { at, wi, pdf });
         };
         let (n, _) = self.normal_and_inv_area()?;
         let (u, pdf) = Self::receiver_cosine(ctx, &seen).sample(u);
@@ -216,7 +216,7 @@ impl Shape for Triangle {
         let (at, to_light) = (self.at(b, n), self.toward(ctx.p, b));
         let wi = unit_normal(to_light)?;
         let pdf = pdf * seen.pdf();
-        with_density_of_ray(self, ctx, to_light, DirectionSample { at, wi, pdf })
+        with_density_of_ray(self, ctx, to_light, ShapeDirectionSample { at, wi, pdf })
     }
 
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
