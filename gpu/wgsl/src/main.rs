@@ -134,7 +134,11 @@ fn names() -> Vec<String> {
 }
 
 fn name(kind: SetKind, n: usize, infinite: &[LightExtent]) -> String {
-    let infinite = if infinite.is_empty() { "" } else { " and a sky" };
+    let infinite = if infinite.is_empty() {
+        ""
+    } else {
+        " and a sky"
+    };
     format!("{} {n}{infinite}", kind.name())
 }
 

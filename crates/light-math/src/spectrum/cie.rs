@@ -2,22 +2,12 @@
 
 use glam::Vec3;
 
+pub(super) use super::observer::{OBSERVER, SAMPLES, cubic};
 pub use super::visible_range::{LAMBDA_MAX, LAMBDA_MIN};
 use super::{SampledSpectrum, SampledWavelengths, Spectrum};
 
-#[path = "cie_1931.rs"]
-mod cie_1931;
-
-use cie_1931::OBSERVER_5_NM;
-
 /// The integral of the luminous efficiency over the wavelengths, in nm.
 pub const Y_INTEGRAL: f32 = 106.856_895;
-
-/// How many whole nanometres the range has.
-pub(super) const SAMPLES: usize = 471;
-
-/// The matching functions at each nanometre, interpolated when the crate is compiled.
-pub(super) const OBSERVER: &[Vec3; SAMPLES] = &interpolate(&OBSERVER_5_NM);
 
 /// The colour matching functions x, y, z at `lambda` nm, the nearest nanometre's value; 0 outside
 /// of the range.
@@ -78,51 +68,6 @@ pub(super) fn nearest_nanometre(lambda: f32) -> Option<usize> {
     (LAMBDA_MIN..=LAMBDA_MAX)
         .contains(&lambda)
         .then_some((lambda - LAMBDA_MIN + 0.5) as usize)
-}
-
-/// The weights of rows `i - 1` to `i + 2` for the cubic through them, at `t` in `[0, 1)` from row
-/// `i` to the next.
-pub(super) const fn cubic(t: f64) -> [f64; 4] {
-    [
-        -t * (t - 1.0) * (t - 2.0) / 6.0,
-        (t + 1.0) * (t - 1.0) * (t - 2.0) / 2.0,
-        -(t + 1.0) * t * (t - 2.0) / 2.0,
-        (t + 1.0) * t * (t - 1.0) / 6.0,
-    ]
-}
-
-/// Cubics through four neighbours, clamped to be non-negative.
-const fn interpolate(rows: &[[f64; 3]; 95]) -> [Vec3; SAMPLES] {
-    let mut out = [Vec3::ZERO; SAMPLES];
-    let mut i = 0;
-    while i < SAMPLES {
-        let row = i / 5;
-        let weights = cubic((i % 5) as f64 / 5.0);
-        let mut xyz = [0.0; 3];
-        let mut k = 0;
-        while k < 4 {
-            // Rows row - 1 to row + 2, without the ones outside of the table.
-            let neighbour = if row + k == 0 { 0 } else { row + k - 1 };
-            let neighbour = if neighbour > 94 { 94 } else { neighbour };
-            let mut c = 0;
-            while c < 3 {
-                xyz[c] += weights[k] * rows[neighbour][c];
-                c += 1;
-            }
-            k += 1;
-        }
-        out[i] = Vec3::new(positive(xyz[0]), positive(xyz[1]), positive(xyz[2]));
-        i += 1;
-    }
-    out
-}
-
-#[expect(
-    clippy::cast_possible_truncation,
-    reason = "rounds to single precision"
-)]
-const fn positive(x: f64) -> f32 {
-    if x > 0.0 { x as f32 } else { 0.0 }
 }
 
 #[cfg(test)]

@@ -10,7 +10,9 @@ mod color_space;
 mod constant;
 mod daylight;
 mod dense;
+mod integrals;
 mod luminance;
+mod observer;
 pub mod photometric;
 mod piecewise_linear;
 mod rgb;
@@ -37,7 +39,7 @@ pub use uplift_solver::UpliftSolver;
 pub use uplift_table::{UpliftTable, UpliftTableError};
 pub use wavelengths::SampledWavelengths;
 
-use photometric::SpectrumIntegrals;
+use integrals::SpectrumIntegrals;
 
 /// A function of wavelength.
 pub trait Spectrum {
@@ -50,7 +52,7 @@ pub trait Spectrum {
     /// The photometric and the radiometric integral. The default sums trapezoids between whole
     /// nanometres; a spectrum with narrower features has a sum of its own.
     fn integrals(&self) -> SpectrumIntegrals {
-        SpectrumIntegrals::of_nanometres(self)
+        SpectrumIntegrals::of_nanometres(|lambda| self.eval(lambda))
     }
 
     /// The values at the sampled wavelengths.

@@ -12,10 +12,7 @@
 //! [means](super::cie::xyz).
 
 use super::Spectrum;
-use super::cie::{LAMBDA_MIN, OBSERVER, SAMPLES};
-
-/// The luminous efficacy of a monochromatic light of 555 nm, in lm/W.
-pub const K_M: f32 = 683.0;
+pub use super::integrals::{K_M, SpectrumIntegrals};
 
 /// Radiant power, in W.
 #[derive(Clone, Copy, Debug, PartialEq, PartialOrd)]
@@ -76,56 +73,6 @@ impl Lux {
     pub fn to_irradiance(self, efficacy: f32) -> f32 {
         self.0 / efficacy
     }
-}
-
-/// The integrals of a spectral quantity per nm over the wavelengths from 360 to 830 nm.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct SpectrumIntegrals {
-    /// In photometric units: W/nm to lm, W/(sr nm) to cd, and so on.
-    pub luminous: f32,
-    /// In radiometric units: W/nm to W, and so on.
-    pub radiant: f32,
-}
-
-impl SpectrumIntegrals {
-    /// The sum of the trapezoids between whole nanometres.
-    pub(super) fn of_nanometres(spectrum: &(impl Spectrum + ?Sized)) -> Self {
-        let mut sum = Self::default();
-        for (i, observer) in OBSERVER.iter().enumerate() {
-            let width = if i == 0 || i == SAMPLES - 1 { 0.5 } else { 1.0 };
-            let value = width * spectrum.eval(LAMBDA_MIN + i as f32);
-            sum.luminous += value * observer.y;
-            sum.radiant += value;
-        }
-        sum.luminous *= K_M;
-        sum
-    }
-
-    /// Adds the part from `lambda[0]` to `lambda[1]`, which lie in the range and have no whole
-    /// nanometre between them, of a spectrum that is straight there, with a value at either end.
-    /// The luminous efficiency is straight between whole nanometres, so that nothing is missed.
-    pub(super) fn add_straight(&mut self, lambda: [f32; 2], value: [f32; 2]) {
-        let step = lambda[1] - lambda[0];
-        let i = whole_nanometre(lambda[0]);
-        let [below, above] = [OBSERVER[i].y, OBSERVER[i + 1].y];
-        let [a, b] = lambda.map(|lambda| {
-            let t = lambda - LAMBDA_MIN - i as f32;
-            (1.0 - t) * below + t * above
-        });
-        let product = value[0] * (2.0 * a + b) + value[1] * (a + 2.0 * b);
-        self.luminous += K_M / 6.0 * step * product;
-        self.radiant += 0.5 * step * (value[0] + value[1]);
-    }
-}
-
-/// The nanometre of the table at or below `lambda`, which is not the last one.
-#[expect(
-    clippy::cast_possible_truncation,
-    clippy::cast_sign_loss,
-    reason = "between 0 and 469"
-)]
-fn whole_nanometre(lambda: f32) -> usize {
-    ((lambda - LAMBDA_MIN).max(0.0) as usize).min(SAMPLES - 2)
 }
 
 /// A spectral quantity per nm in photometric units: W/nm to lm, W/(sr nm) to cd,

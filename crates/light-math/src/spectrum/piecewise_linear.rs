@@ -1,5 +1,5 @@
 use super::Spectrum;
-use super::photometric::SpectrumIntegrals;
+use super::integrals::SpectrumIntegrals;
 use super::visible_range::{LAMBDA_MAX, LAMBDA_MIN};
 use crate::float;
 
