@@ -2,7 +2,8 @@
 //!
 //! They are exact to a few roundings for shapes of any size, however small, far away or near:
 //! differences are taken between corners, never between directions or angles. What is left is the
-//! rounding of the corners themselves where the point lies almost in the plane of the shape.
+//! rounding of the corners themselves where the point lies almost in the plane of the shape, and of
+//! slivers: of one a thousand times as long as wide it was up to 1 % (6 of 400,000 above 0.1 %).
 
 use crate::seen_triangle::SeenTriangle;
 use glam::Vec3;
