@@ -27,7 +27,9 @@ impl BenchSet {
 
     /// The emitted powers of the lights, by id.
     #[must_use]
+    #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
     pub fn powers(&self) -> Vec<f32> {
-        self.lights.iter().map(SetLight::power).collect()
+        let powers = self.lights.iter().map(SetLight::power);
+        powers.map(|power| power as f32).collect()
     }
 }

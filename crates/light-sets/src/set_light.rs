@@ -126,9 +126,8 @@ impl SetLight {
     /// The emitted power: that of both sides of a two-sided triangle, and of a spot that in its
     /// cone. The `phi` of the [`bounds`](Self::bounds) is another number, for importances.
     #[must_use]
-    #[expect(clippy::cast_possible_truncation, reason = "rounding is what is meant")]
-    pub fn power(&self) -> f32 {
-        let power = match *self {
+    pub fn power(&self) -> f64 {
+        match *self {
             Self::Triangle {
                 vertices,
                 radiance,
@@ -151,8 +150,7 @@ impl SetLight {
                 let [start, end] = cone(cone_deg, delta_deg).map(sin_sq);
                 2.0 * PI * f64::from(intensity) * (start + end)
             }
-        };
-        power as f32
+        }
     }
 
     /// The bounds of the light, for light samplers.

@@ -1,4 +1,3 @@
-use core::f64::consts::PI;
 use core::str::{FromStr, SplitWhitespace};
 use std::io;
 use std::path::Path;
@@ -49,21 +48,12 @@ fn read_records<T>(
 }
 
 fn of_finite_power(light: SetLight) -> Result<SetLight, LightSetProblem> {
-    // Of a spot its cone is a part of this.
-    let power = match light {
-        SetLight::Triangle {
-            vertices,
-            radiance,
-            two_sided,
-        } => {
-            let [a, b, c] = vertices.map(Vec3::as_dvec3);
-            let sides = if two_sided { 2.0 } else { 1.0 };
-            PI * f64::from(radiance) * sides * 0.5 * (b - a).cross(c - a).length()
-        }
-        SetLight::Point { intensity, .. } | SetLight::Spot { intensity, .. } => {
-            4.0 * PI * f64::from(intensity)
-        }
+    // A spot as if it had no cone: so its bounds have it.
+    let whole = match light {
+        SetLight::Spot { p, intensity, .. } => SetLight::Point { p, intensity },
+        other => other,
     };
+    let power = whole.power();
     if !(power <= f64::from(f32::MAX)) {
         return Err(LightSetProblem::Power { found: power });
     }

@@ -95,14 +95,11 @@ fn powers_are_those_of_all_directions() {
         (triangle(true), 6.0 * PI),
         (point, 8.0 * PI),
         (spot(30.0, 0.0), 4.0 * PI * (1.0 - 30f64.to_radians().cos())),
-        (spot(70.0, 50.0), f64::from(spot(70.0, 50.0).power())),
+        (spot(70.0, 50.0), spot(70.0, 50.0).power()),
         (spot(180.0, 180.0), 4.0 * PI),
     ];
     for (light, expected) in lights {
-        assert!(
-            (f64::from(light.power()) / expected - 1.0).abs() < 1e-6,
-            "{light:?}"
-        );
+        assert!((light.power() / expected - 1.0).abs() < 1e-6, "{light:?}");
         let steps = 20_000;
         let sum: f64 = (0..steps)
             .map(|i| {
@@ -117,7 +114,7 @@ fn powers_are_those_of_all_directions() {
             "{light:?}: {sum}, {expected}"
         );
     }
-    let narrow = f64::from(spot(1e-3, 0.0).power());
+    let narrow = spot(1e-3, 0.0).power();
     let expected = 2.0 * PI * 1e-3f64.to_radians().powi(2);
     assert!(
         (narrow / expected - 1.0).abs() < 1e-6,
