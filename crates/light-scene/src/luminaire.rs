@@ -76,10 +76,12 @@ pub(crate) fn goniometric_light<C: ColorModel>(
     transform: Affine3A,
     emission: C::Emission,
 ) -> GoniometricLightDesc<C> {
+    // A dark one has no peak to keep.
+    let least = if web.peak_candelas() > 0.0 { KEPT } else { 0.0 };
     let (mut size, mut parts) = (0, Vec::new());
     for finer in MAP_SIZES {
         (size, parts) = (finer, web.distribution(finer));
-        if parts.iter().any(|&part| part >= KEPT) {
+        if parts.iter().any(|&part| part >= least) {
             break;
         }
     }
