@@ -24,7 +24,10 @@ impl fmt::Display for LightBoundsError {
             Self::Axis => "the axis of a light is no unit vector",
             Self::Power => "the power of a light is negative or not finite",
             Self::Cosine => "a cosine of a light's bounds is outside of [-1, 1]",
-            Self::Lobe => "a moment of a light's emission is negative or not finite, or its mean is longer than one",
+            Self::Lobe => {
+                "a moment of a light's emission is negative or not finite, or its mean is longer \
+                 than one"
+            }
         })
     }
 }

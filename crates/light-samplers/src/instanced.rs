@@ -26,8 +26,8 @@ impl InstancedBvhLightSampler {
     /// A sampler of the lights of `tree` and of lights at infinity.
     ///
     /// # Errors
-    /// More than 2^32 - 1 lights, for which ids are too short; the first light at infinity with invalid
-    /// bounds.
+    /// More than 2^32 - 1 lights, for which ids are too short; the first light at infinity with
+    /// invalid bounds.
     pub fn new(
         tree: InstancedLightBvh,
         infinite: &[InfiniteBounds],
@@ -46,8 +46,8 @@ impl InstancedBvhLightSampler {
     /// for them, where it is dark.
     ///
     /// # Errors
-    /// More than 2^32 - 1 lights; ids that are not in order, or not among those of the tree; the first
-    /// light at infinity with invalid bounds.
+    /// More than 2^32 - 1 lights; ids that are not in order, or not among those of the tree; the
+    /// first light at infinity with invalid bounds.
     pub fn with_infinite_among(
         tree: InstancedLightBvh,
         infinite: &[(LightId, InfiniteBounds)],

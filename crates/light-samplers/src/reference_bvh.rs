@@ -8,8 +8,8 @@ use crate::{LightChoices, LightSampler};
 /// The light hierarchy as published: lights at infinity and the reference tree share one uniform
 /// choice.
 ///
-/// Reads the normal of `ctx`, and all of a ray segment. Without a context, lights of the tree are chosen in
-/// proportion to power. 68 bytes a light; a query takes two importances a level.
+/// Reads the normal of `ctx`, and all of a ray segment. Without a context, lights of the tree are
+/// chosen in proportion to power. 68 bytes a light; a query takes two importances a level.
 ///
 /// # Source
 /// `[PBRT4]`, section 12.6.3, which has no segments.

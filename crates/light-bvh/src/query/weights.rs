@@ -135,7 +135,7 @@ impl Weights {
         }
     }
 
-    /// Sets the sum of all lanes, and whether one of them has most of it.
+    /// Sets the sum of all lanes, and whether one of them, or four together, has most of it.
     #[cfg_attr(soft_floats, inline(never))]
     #[cfg_attr(not(soft_floats), inline(always))]
     pub(crate) fn sum_up(&mut self) {
