@@ -328,7 +328,8 @@ struct LightNode {
     parent: u32,
     // The largest power of a child, as a share of the tree's.
     gain: f32,
-    has_sheets: bool,
+    // Whether a child may be a thin sheet, or a group of opposed beams.
+    has_rare: bool,
     // Whether codes of the node describe a subtree coarsely.
     has_rough: bool,
 }
@@ -363,11 +364,13 @@ struct LightChildren {
     step: vec4<bool>,
     both_sides: vec4<bool>,
     // Whether the lights lie in a thin sheet, and how positions along the axes are correlated:
-    // x and y, y and z, z and x. Set only where the node has sheets.
+    // x and y, y and z, z and x. Set only where the node has rare children.
     sheet: vec4<bool>,
     correlation_xy: vec4<f32>,
     correlation_yz: vec4<f32>,
     correlation_zx: vec4<f32>,
+    // Whether the beams of a group go both ways along the axis. Set only there, too.
+    opposed: vec4<bool>,
 }
 
 // The node that begins in row `first`.
@@ -387,7 +390,7 @@ fn light_node(first: u32) -> LightNode {
     node.parent = links.w;
     // The two top bits of the gain are flags.
     node.gain = bitcast<f32>((links.z & 0x3fffu) << 16u);
-    node.has_sheets = (links.z & 0x8000u) != 0u;
+    node.has_rare = (links.z & 0x8000u) != 0u;
     node.has_rough = (links.z & 0x4000u) != 0u;
     return node;
 }
@@ -426,15 +429,14 @@ fn light_children(node: ptr<function, LightNode>, frame: LightFrame, word: u32) 
     c.soft = (spread & vec4<u32>(64u)) != vec4<u32>(0u);
     let least = bitcast<u32>(f32(LIGHT_LEAST_SPREAD));
     c.spread = bitcast<vec4<f32>>(((spread & vec4<u32>(63u)) << vec4<u32>(20u)) + least);
-    if (*node).has_sheets {
+    if (*node).has_rare {
+        let code = light_bytes_as_u32((*node).rows[9][word]);
+        c.opposed = c.soft & c.step & ((code & vec4<u32>(1u)) != vec4<u32>(0u));
         c.sheet = c.soft & !c.step & (c.offset > vec4<f32>(0.0));
-        let code = c.offset - 63.0;
-        let a = round(code * (1.0 / 25.0));
-        let rest = code - 25.0 * a;
-        let b = round(rest * (1.0 / 5.0));
-        c.correlation_xy = LIGHT_SHEET_CORRELATION * a;
-        c.correlation_yz = LIGHT_SHEET_CORRELATION * b;
-        c.correlation_zx = LIGHT_SHEET_CORRELATION * (rest - 5.0 * b);
+        let steps = code - vec4<u32>(1u);
+        c.correlation_xy = LIGHT_SHEET_CORRELATION * (vec4<f32>(steps / 25u) - 2.0);
+        c.correlation_yz = LIGHT_SHEET_CORRELATION * (vec4<f32>(steps / 5u % 5u) - 2.0);
+        c.correlation_zx = LIGHT_SHEET_CORRELATION * (vec4<f32>(steps % 5u) - 2.0);
         c.offset = select(c.offset, vec4<f32>(0.0), c.sheet);
     }
     let power = light_bytes_as_u32((*node).rows[11][word]);
@@ -609,7 +611,8 @@ fn light_likelihood(receiver: LightReceiver, c: LightChildren) -> vec4<f32> {
 // By how much the mean emission misses the receiver, times the distance.
 fn light_emission_beyond(c: LightChildren) -> vec4<f32> {
     let along = c.axis_x * c.mean_x + c.axis_y * c.mean_y + c.axis_z * c.mean_z;
-    return along + c.offset * c.dist;
+    // Opposed beams emit both ways.
+    return select(along, -abs(along), c.opposed) + c.offset * c.dist;
 }
 
 // The variance of that.

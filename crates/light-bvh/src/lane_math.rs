@@ -65,6 +65,12 @@ impl LaneMask {
         Self(self.0 & !other.0)
     }
 
+    /// The sign bit of a float where this is set, otherwise 0.
+    #[inline(always)]
+    pub(crate) const fn sign(self) -> u32 {
+        self.0 & (1 << 31)
+    }
+
     /// `x` where this is set, otherwise 0.
     #[inline(always)]
     pub(crate) const fn keep(self, x: f32) -> f32 {

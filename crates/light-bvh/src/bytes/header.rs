@@ -9,7 +9,7 @@ use crate::node::wide_node::{WIDTH, WideNode};
 const MAGIC: [u8; 8] = *b"LightBvh";
 
 /// The form of the bytes; changes whenever the meaning of a byte of a node does.
-const VERSION: u32 = 4;
+const VERSION: u32 = 5;
 
 /// What precedes the nodes, which so keep their alignment.
 #[derive(Clone, Copy, Debug, bytemuck::Pod, bytemuck::Zeroable)]

@@ -48,7 +48,7 @@ pub(crate) const FAR_SQ: f32 = 16.0;
 /// From a point to a child.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Displacement {
-    /// The inner product of its axis and the way to its mean position.
+    /// The inner product of its axis and the way to its mean position, as [`ChildView::toward`] has it.
     pub(crate) axis_dot_mean: f32,
     /// About the root mean square distance, and its square.
     pub(crate) dist: f32,
@@ -181,7 +181,7 @@ impl ChildView {
         let dist_sq = dist_sq(mean, self.extent, DISTANCE);
         let dist_sq = larger(least_sq, dist_sq);
         Displacement {
-            axis_dot_mean: dot(&self.axis, &mean),
+            axis_dot_mean: self.toward(dot(&self.axis, &mean)),
             dist: float::sqrt(dist_sq),
             dist_sq,
         }

@@ -47,11 +47,13 @@ pub struct ChildView {
     pub(crate) step: LaneMask,
     /// Whether the child emits alike to both sides, about `power / 2 * |dot(axis, w)|`.
     pub(crate) both_sides: LaneMask,
+    /// The sign bit where the child is a group of beams that go both ways along `axis`.
+    pub(crate) opposed: u32,
     /// Scale of the emission; 0 for an empty slot.
     pub power: f32,
     /// How it lies, if it is a thin sheet; `None` if no child of the node is one.
     pub(crate) sheet: Option<Sheet>,
-    /// The inner product of `axis` and `mean`, which several tests and weights need.
+    /// What [`toward`](Self::toward) has for the way to `mean`, which several tests and weights need.
     pub(crate) axis_dot_mean: f32,
 }
 
@@ -109,23 +111,23 @@ impl NodeFrame {
         self.origin.abs().element_sum() + reach * self.inv_unit < 8_388_608.0
     }
 
-    /// Child `k` of `node`, which has `sheets` or none.
+    /// Child `k` of `node`, which has `rare` ones or none.
     #[cfg_attr(soft_floats, inline(never))]
     #[cfg_attr(not(soft_floats), inline(always))]
-    pub(crate) fn child_at(&self, node: &WideNode, k: usize, sheets: bool) -> ChildView {
+    pub(crate) fn child_at(&self, node: &WideNode, k: usize, rare: bool) -> ChildView {
         let codes = if READS_WORDS {
             node.four_children(k / 4).child_codes(k % 4)
         } else {
             node.child_codes(k)
         };
-        self.child(&codes, sheets)
+        self.child(&codes, rare)
     }
 
-    /// The child of these codes, of a node that has `sheets` or none.
+    /// The child of these codes, of a node that has `rare` ones or none.
     // Software floats take much code.
     #[cfg_attr(soft_floats, inline(never))]
     #[cfg_attr(not(soft_floats), inline(always))]
-    pub(crate) fn child(&self, codes: &ChildCodes, sheets: bool) -> ChildView {
+    pub(crate) fn child(&self, codes: &ChildCodes, rare: bool) -> ChildView {
         let Self { origin, code, .. } = *self;
         let mean = [
             origin.x + code * f32::from(codes.mean[0]),
@@ -159,27 +161,39 @@ impl NodeFrame {
             soft: spread.soft(),
             step: spread.step(),
             both_sides,
+            opposed: 0,
             power: decode_power(codes.power),
             sheet: None,
             axis_dot_mean: dot(&axis, &mean),
         };
-        if sheets {
-            child.set_sheet();
+        if rare {
+            child.set_rare(codes);
         }
         child
     }
 }
 
 impl ChildView {
-    /// Sets how the child lies: one of a node that has sheets.
+    /// Sets what only the codes of a node that has rare children tell: whether this one is a sheet, and
+    /// whether its beams are opposed.
     #[inline(always)]
-    fn set_sheet(&mut self) {
+    fn set_rare(&mut self, codes: &ChildCodes) {
         let is_sheet = self.is_ramp_group().and(LaneMask::when(self.offset > 0.0));
         self.sheet = Some(Sheet {
             is_sheet,
-            correlations: SheetCode::correlations(self.offset),
+            correlations: SheetCode::correlations(i32::from(codes.offset)),
         });
         self.offset = is_sheet.clear(self.offset);
+        let is_odd = LaneMask::of_sign(i32::from(codes.offset) << 31);
+        self.opposed = self.step.and(self.soft).and(is_odd).sign();
+        self.axis_dot_mean = self.toward(self.axis_dot_mean);
+    }
+
+    /// `axis_dot_way`, the inner product of the axis and a way to the lights: negative where they emit to
+    /// its beginning. Opposed beams emit both ways.
+    #[inline(always)]
+    pub(crate) const fn toward(&self, axis_dot_way: f32) -> f32 {
+        f32::from_bits(axis_dot_way.to_bits() | self.opposed)
     }
 }
 

@@ -146,6 +146,7 @@ mod tests {
             both_sides: LaneMask::when(false),
             power: 1.0,
             sheet: None,
+            opposed: 0,
             axis_dot_mean: 0.0,
         }
     }

@@ -150,6 +150,7 @@ impl<'a> Turned<'a> {
             bounds,
             mean: self.place(inner.mean).clamp(bounds.min, bounds.max),
             axis: self.axis(inner.axis),
+            line: self.axis(inner.line),
             ..*inner
         };
         // Depth and covariance stay shares of the squared width, which turning changes.

@@ -36,11 +36,12 @@ impl ChildrenSoa {
         };
         for k in 0..WIDTH {
             let child = child(k).unwrap_or(some);
+            let coded_axis = child.coded_axis();
             for axis in 0..3 {
                 children.low[axis][k] = child.bounds.min[axis];
                 children.high[axis][k] = child.bounds.max[axis];
                 children.mean[axis][k] = child.mean[axis];
-                children.axis[axis][k] = child.axis[axis];
+                children.axis[axis][k] = coded_axis[axis];
             }
             children.offset[k] = child.offset;
             children.spread_sq[k] = child.total_spread_sq();

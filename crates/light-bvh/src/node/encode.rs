@@ -1,7 +1,7 @@
 use crate::lane_math::{larger, low_byte, nearest, reduce, smaller};
 use crate::node::children_soa::ChildrenSoa;
 use crate::node::moments::Moments;
-use crate::node::wide_node::{HAS_ROUGH, HAS_SHEETS, WIDTH, WideNode, encode_power};
+use crate::node::wide_node::{HAS_RARE, HAS_ROUGH, WIDTH, WideNode, encode_power};
 use crate::simd::{VectorWork, dispatch};
 
 /// The least scale of a node: lights closer together than this are taken as one point.
@@ -52,6 +52,7 @@ impl WideNode {
         self.set_power(&children, &units);
         self.clear_unlit(&children);
         self.set_sheets(all);
+        self.set_opposed(all);
         if self.subtrees().any(|k| self.is_rough(k)) || self.is_large(all) {
             self.gain |= HAS_ROUGH;
         }
@@ -134,7 +135,24 @@ impl WideNode {
             }
             if let Some(sheet) = child.sheet() {
                 *offset = sheet.0;
-                self.gain |= HAS_SHEETS;
+                self.gain |= HAS_RARE;
+            }
+        }
+    }
+
+    /// Where beams go both ways along a line, the offset is odd; of all other groups of steps of such a
+    /// node it is even.
+    fn set_opposed(&mut self, children: &[Moments]) {
+        if children.iter().any(Moments::is_opposed) {
+            self.gain |= HAS_RARE;
+        }
+        if !self.has_rare() {
+            return;
+        }
+        for (k, child) in children.iter().enumerate() {
+            if self.is_step_group(k) {
+                let even = self.offset[k] - self.offset[k] % 2;
+                self.offset[k] = even + i8::from(child.is_opposed());
             }
         }
     }

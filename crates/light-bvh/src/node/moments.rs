@@ -10,6 +10,13 @@ use crate::node::sheet_code::SheetCode;
 /// spread. Chosen by V: see `docs/light-bvh-study.md`.
 const RAMP_BY_DEPTH: f32 = 15.0;
 
+/// The least cosine of the edge of opposed beams: wide ones overlap.
+const LEAST_OPPOSED: f32 = 0.3;
+
+/// By how much the squared length of the mean along a line exceeds that of the mean axis in a group of
+/// opposed beams. Chosen by V: see `docs/light-bvh-study.md`.
+const BOTH_WAYS: f32 = 0.5;
+
 /// What a node knows of a group of lights: the sums that estimate its irradiance, weighted by peak
 /// intensity.
 ///
@@ -24,6 +31,9 @@ pub(crate) struct Moments {
     pub(crate) mean: Vec3,
     /// Mean axis, as long as the emission is directed.
     pub(crate) axis: Vec3,
+    /// Of a group of steps the mean of axes turned into one half space: as long as they lie along one
+    /// line.
+    pub(crate) line: Vec3,
     /// Mean offset.
     pub(crate) offset: f32,
     /// Mean squared deviation of axis and offset.
@@ -48,6 +58,7 @@ impl Moments {
         bounds: Aabb::EMPTY,
         mean: Vec3::ZERO,
         axis: Vec3::ZERO,
+        line: Vec3::ZERO,
         offset: 0.0,
         spread_sq: 0.0,
         axis_var: 0.0,
@@ -76,6 +87,7 @@ impl Moments {
             bounds: light.bounds,
             mean: light.bounds.center(),
             axis: emission.axis,
+            line: emission.axis,
             offset: emission.offset,
             spread_sq: emission.spread_sq,
             axis_var: 0.0,
@@ -101,10 +113,33 @@ impl Moments {
         match self.shape {
             Shape::Steps => {
                 let counted = (3.0 * (1.0 - self.offset)).clamp(0.0, 1.0 / 3.0);
-                self.spread_sq + self.axis_var * counted
+                self.spread_sq + self.deviation_sq() * counted
             }
             Shape::Mixed | Shape::BothSides => self.spread_sq + RAMP_BY_DEPTH * self.depth_var,
         }
+    }
+
+    /// The axis of the code: of opposed beams that of their line.
+    pub(crate) fn coded_axis(&self) -> Vec3 {
+        if self.is_opposed() {
+            self.line
+        } else {
+            self.axis
+        }
+    }
+
+    /// The mean squared deviation of axes from [that of the code](Self::coded_axis).
+    fn deviation_sq(&self) -> f32 {
+        let coded = self.coded_axis().length_squared();
+        // The mean of squares less the square of the mean, of which `axis_var` is the same.
+        (self.axis_var + self.axis.length_squared() - coded).max(0.0)
+    }
+
+    /// Whether it is a group of beams that go both ways along a line.
+    pub(crate) fn is_opposed(&self) -> bool {
+        self.shape == Shape::Steps
+            && self.offset > LEAST_OPPOSED
+            && self.line.length_squared() - self.axis.length_squared() > BOTH_WAYS
     }
 
     /// The length of the mean axis of one light: 1 for a flat light, longer for a narrower cone.
@@ -161,6 +196,7 @@ impl Moments {
             bounds,
             mean: Vec3::ZERO,
             axis: Vec3::ZERO,
+            line: Vec3::ZERO,
             offset: 0.0,
             spread_sq: 0.0,
             axis_var: 0.0,
@@ -176,6 +212,9 @@ impl Moments {
             // Relative to the lower corner, the mean keeps its precision far from the origin.
             joined.mean += (part.mean - bounds.min) * share;
             joined.axis += part.axis * share;
+            if shape == Shape::Steps {
+                joined.line += toward(part.line, joined.line) * share;
+            }
             joined.offset += part.offset * share;
         }
         joined.mean = (joined.mean + bounds.min).clamp(bounds.min, bounds.max);
@@ -207,8 +246,8 @@ impl Moments {
     /// The same lights as a part of a group of the given shape and the axis so far.
     fn in_group(&self, shape: Shape, axis: Vec3) -> Self {
         match (self.shape, shape) {
-            (Shape::BothSides, Shape::BothSides) if self.axis.dot(axis) < 0.0 => Self {
-                axis: -self.axis,
+            (Shape::BothSides, Shape::BothSides) => Self {
+                axis: toward(self.axis, axis),
                 ..*self
             },
             // The axis has no sign and cannot be averaged: mean and variance of |cos| over the
@@ -222,6 +261,7 @@ impl Moments {
             // Half of the lights shine on one place.
             (Shape::BothSides, Shape::Steps) => Self {
                 axis: Vec3::ZERO,
+                line: Vec3::ZERO,
                 offset: 0.0,
                 spread_sq: 1.0 / 3.0,
                 axis_var: 0.0,
@@ -240,6 +280,11 @@ impl Moments {
             _ => *self,
         }
     }
+}
+
+/// `axis`, or its opposite, in the half space of `line`.
+fn toward(axis: Vec3, line: Vec3) -> Vec3 {
+    if axis.dot(line) < 0.0 { -axis } else { axis }
 }
 
 #[cfg(test)]

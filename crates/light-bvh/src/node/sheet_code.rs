@@ -30,14 +30,11 @@ impl SheetCode {
     }
 
     /// The correlations of x and y, y and z, z and x that `code` means, in 1 to 125.
-    #[inline(always)]
-    pub(crate) fn correlations(code: f32) -> [f32; 3] {
-        let code = code - NONE;
-        let a = nearest(code * (1.0 / 25.0));
-        let rest = code - 25.0 * a;
-        let b = nearest(rest * (1.0 / 5.0));
-        let c = rest - 5.0 * b;
-        [CORRELATION * a, CORRELATION * b, CORRELATION * c]
+    #[cfg_attr(target_os = "none", inline(never))]
+    #[cfg_attr(not(target_os = "none"), inline(always))]
+    pub(crate) fn correlations(code: i32) -> [f32; 3] {
+        let steps = code - 1;
+        [steps / 25, steps / 5 % 5, steps % 5].map(|step| CORRELATION * (step - 2) as f32)
     }
 }
 
@@ -47,7 +44,7 @@ impl WideNode {
     pub(crate) const fn is_sheet(&self, k: usize) -> bool {
         let spread = SpreadCode(self.spread[k]);
         let is_ramp_group = spread.soft().and_not(spread.step()).is_set();
-        self.has_sheets() && is_ramp_group && self.offset[k] > 0
+        self.has_rare() && is_ramp_group && self.offset[k] > 0
     }
 }
 
@@ -58,7 +55,7 @@ mod tests {
     #[test]
     fn codes_come_back() {
         for code in (1..=125).filter(|&code| code != 63) {
-            let correlations = SheetCode::correlations(f32::from(code));
+            let correlations = SheetCode::correlations(i32::from(code));
             let steps = correlations.map(|r| r / CORRELATION);
             assert!(steps.iter().all(|s| s.abs() <= 2.0), "{code}: {steps:?}");
             let again = SheetCode::new(steps.map(|s| 0.5 * s));

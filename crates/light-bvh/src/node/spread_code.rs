@@ -68,6 +68,13 @@ impl WideNode {
         SpreadCode(self.spread[k]).step().is_set()
     }
 
+    /// Whether child `k` is a group of lights of which one does.
+    #[cfg(feature = "alloc")]
+    pub(crate) const fn is_step_group(&self, k: usize) -> bool {
+        let spread = SpreadCode(self.spread[k]);
+        spread.step().and(spread.soft()).is_set()
+    }
+
     /// Whether a light of any child does.
     #[inline]
     pub(crate) const fn has_steps(&self) -> bool {

@@ -49,7 +49,7 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// bits of exponent and three of mantissa, less their value for 0.
 ///
 /// The share of a child is that of the tree's power. It is below 2, so that two bits of `gain` are
-/// free: bit 15 is set where a child is a sheet, bit 14 where a subtree is rough, so that its own node
+/// free: bit 15 is set where a child is rare, a sheet or a group of opposed beams, bit 14 where a subtree is rough, so that its own node
 /// may tell more. It is small, its extents are 1 in codes, or at most 15 where its power is at most a
 /// 1024th of the largest; or its lights emit in steps; or they are many, of a node whose lights all
 /// face about the same way.
@@ -57,6 +57,9 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// A group of flat lights that lie in a thin slanted sheet has offset 0, and the byte tells instead
 /// how positions along the axes are correlated: as `63 + 25 a + 5 b + c`, of which `a`, `b` and `c`
 /// are -2 to 2, for x and y, y and z, z and x. No offset of a group of ramps is above 0 otherwise.
+///
+/// In a node that has rare children the offset of a group of steps is odd if its beams are opposed: they
+/// go both ways along `axis`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[cfg_attr(feature = "bytemuck", derive(bytemuck::Pod, bytemuck::Zeroable))]
 #[repr(C, align(32))]
@@ -90,8 +93,8 @@ const _: () = {
 /// The offset that marks a child that emits alike to both sides.
 pub(crate) const BOTH_SIDES: i8 = i8::MIN;
 
-/// The bit of [`WideNode::gain`] that is set where a child is a sheet.
-pub(crate) const HAS_SHEETS: u16 = 1 << 15;
+/// The bit of [`WideNode::gain`] that is set where a child is a sheet, or a group of opposed beams.
+pub(crate) const HAS_RARE: u16 = 1 << 15;
 
 /// The bit of [`WideNode::gain`] that is set where a subtree is rough: small in codes of the node, of
 /// lights that emit in steps, or of many in a node whose lights face about the same way.
@@ -127,13 +130,13 @@ impl WideNode {
     #[inline]
     #[must_use]
     pub(crate) const fn gain(&self) -> f32 {
-        f32::from_bits(((self.gain & !(HAS_SHEETS | HAS_ROUGH)) as u32) << 16)
+        f32::from_bits(((self.gain & !(HAS_RARE | HAS_ROUGH)) as u32) << 16)
     }
 
-    /// Whether a child may be a group of lights in a thin slanted sheet.
+    /// Whether a child may be a group of lights in a thin slanted sheet, or of opposed beams.
     #[inline(always)]
-    pub(crate) const fn has_sheets(&self) -> bool {
-        self.gain & HAS_SHEETS != 0
+    pub(crate) const fn has_rare(&self) -> bool {
+        self.gain & HAS_RARE != 0
     }
 
     /// Whether codes of the node describe a subtree coarsely.

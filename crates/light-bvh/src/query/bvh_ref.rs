@@ -105,7 +105,7 @@ impl<'a> LightBvhRef<'a> {
             return true;
         };
         let frame = NodeFrame::in_codes(node, receiver.position());
-        let child = frame.child_at(node, slot % WIDTH, node.has_sheets());
+        let child = frame.child_at(node, slot % WIDTH, node.has_rare());
         receiver.tells_apart(&child)
     }
 

@@ -31,6 +31,7 @@ impl Doubtful<'_> {
     #[cfg_attr(not(target_os = "none"), inline(always))]
     fn bits(&self) -> u32 {
         let frame = NodeFrame::in_codes(self.node, self.position);
+        let rare = self.node.has_rare();
         let inv_total = 1.0 / self.weights.total;
         let mut bits = 0;
         if READS_WORDS {
@@ -38,13 +39,13 @@ impl Doubtful<'_> {
                 let four = self.node.four_children(quarter);
                 for j in 0..4 {
                     let k = 4 * quarter + j;
-                    let child = frame.child(&four.child_codes(j), false);
+                    let child = frame.child(&four.child_codes(j), rare);
                     bits |= self.bit(&child, k, inv_total);
                 }
             }
         } else {
             for k in 0..WIDTH {
-                bits |= self.bit(&frame.child_at(self.node, k, false), k, inv_total);
+                bits |= self.bit(&frame.child_at(self.node, k, rare), k, inv_total);
             }
         }
         bits

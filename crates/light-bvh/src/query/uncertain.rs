@@ -80,7 +80,7 @@ impl LightBvhRef<'_> {
             return None;
         }
         let frame = NodeFrame::in_codes(node, receiver.position());
-        let child = frame.child_at(node, k, node.has_sheets());
+        let child = frame.child_at(node, k, node.has_rare());
         let likelihood = receiver.likelihood(&child);
         let odds = ODDS_OF[usize::from(child.soft.is_set()) + usize::from(child.step.is_set())];
         Some(odds * float::sqrt(likelihood / (1.0 - likelihood)))

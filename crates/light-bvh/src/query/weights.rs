@@ -60,7 +60,7 @@ impl Weights {
     pub(crate) fn new<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
         let frame = NodeFrame::in_codes(node, receiver.position());
         let weights = Self::in_frame(node, receiver, &frame, false, note_nothing);
-        if is_trusted(weights.total, &frame, receiver) && !node.has_sheets() {
+        if is_trusted(weights.total, &frame, receiver) && !node.has_rare() {
             weights
         } else {
             Self::in_rare_cases(node, receiver)
@@ -84,7 +84,7 @@ impl Weights {
         if !is_trusted(weights.total, &frame, receiver) {
             // So far away, all are points.
             (Self::in_rare_cases(node, receiver), [0.0; WIDTH])
-        } else if node.has_sheets() {
+        } else if node.has_rare() {
             (Self::in_rare_cases(node, receiver), angular_size_sq)
         } else {
             (weights, angular_size_sq)
@@ -153,15 +153,15 @@ impl Weights {
         irradiance(self.total, self.inv_unit, node.gain())
     }
 
-    /// The weights where a child is a sheet, or where those in codes are not trusted.
+    /// The weights where a child is rare, or where those in codes are not trusted.
     ///
-    /// A function of its own, which computes all of them again: nodes without sheets, which are
-    /// most, pay for one test.
+    /// A function of its own, which computes all of them again: nodes without rare children, which
+    /// are most, pay for one test.
     #[cold]
     #[inline(never)]
     fn in_rare_cases<R: Receiver>(node: &WideNode, receiver: &R) -> Self {
-        if node.has_sheets() {
-            dispatch(WithSheets { node, receiver })
+        if node.has_rare() {
+            dispatch(WithRare { node, receiver })
         } else {
             Self::from_afar(node, receiver, false)
         }
@@ -170,9 +170,9 @@ impl Weights {
     /// The weights in a unit near the distance, for lights so far away, or nodes so large, that
     /// weights in codes underflow.
     #[cold]
-    fn from_afar<R: Receiver>(node: &WideNode, receiver: &R, sheets: bool) -> Self {
+    fn from_afar<R: Receiver>(node: &WideNode, receiver: &R, rare: bool) -> Self {
         let frame = NodeFrame::from_afar(node, receiver.position(), receiver.reach());
-        Self::in_frame(node, receiver, &frame, sheets, note_nothing)
+        Self::in_frame(node, receiver, &frame, rare, note_nothing)
     }
 
     /// Written so that the compiler computes all children together: no branches, and nothing that
@@ -183,7 +183,7 @@ impl Weights {
         node: &WideNode,
         receiver: &R,
         frame: &NodeFrame,
-        sheets: bool,
+        rare: bool,
         mut note: impl FnMut(usize, &ChildView),
     ) -> Self {
         let mut lanes = [0.0; WIDTH];
@@ -191,14 +191,14 @@ impl Weights {
             for (quarter, lanes) in lanes.chunks_exact_mut(4).enumerate() {
                 let four = node.four_children(quarter);
                 for (j, weight) in lanes.iter_mut().enumerate() {
-                    let child = frame.child(&four.child_codes(j), sheets);
+                    let child = frame.child(&four.child_codes(j), rare);
                     *weight = receiver.weigh(&child, frame.inv_unit);
                     note(4 * quarter + j, &child);
                 }
             }
         } else {
             for (k, weight) in lanes.iter_mut().enumerate() {
-                let child = frame.child_at(node, k, sheets);
+                let child = frame.child_at(node, k, rare);
                 *weight = receiver.weigh(&child, frame.inv_unit);
                 note(k, &child);
             }
@@ -214,13 +214,13 @@ impl Weights {
     }
 }
 
-/// The weights of the children of a node of which some are sheets.
-struct WithSheets<'a, R> {
+/// The weights of the children of a node of which some are rare.
+struct WithRare<'a, R> {
     node: &'a WideNode,
     receiver: &'a R,
 }
 
-impl<R: Receiver> VectorWork for WithSheets<'_, R> {
+impl<R: Receiver> VectorWork for WithRare<'_, R> {
     type Output = Weights;
 
     #[inline(always)]

@@ -30,6 +30,7 @@ mod guards;
 mod moved_cells;
 #[cfg(feature = "std")]
 mod nearest_cells;
+mod opposed_beams;
 #[cfg(all(feature = "std", feature = "bytemuck"))]
 mod out_of_core;
 #[cfg(feature = "std")]

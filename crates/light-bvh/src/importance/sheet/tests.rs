@@ -9,7 +9,7 @@ use light_math::glam::{Quat, Vec3};
 use light_testkit::Rng;
 
 use crate::LightBvh;
-use crate::node::wide_node::{HAS_SHEETS, WIDTH};
+use crate::node::wide_node::{HAS_RARE, WIDTH};
 
 /// Rows of lamps that face forward, turned as a whole.
 struct Rows {
@@ -50,7 +50,7 @@ impl Rows {
         };
         let lamps: Vec<_> = self.lamps.iter().zip(&self.power).map(lamp).collect();
         let tree = LightBvh::build(&lamps).expect("valid lights");
-        let sheets = tree.nodes.iter().filter(|node| node.has_sheets()).count();
+        let sheets = tree.nodes.iter().filter(|node| node.has_rare()).count();
         assert!(sheets > 0, "the rows are sheets");
         tree
     }
@@ -79,7 +79,7 @@ fn without_sheets(tree: &LightBvh) -> LightBvh {
         for k in (0..WIDTH).filter(|&k| node.is_sheet(k)).collect::<Vec<_>>() {
             node.offset[k] = 0;
         }
-        node.gain &= !HAS_SHEETS;
+        node.gain &= !HAS_RARE;
     }
     tree
 }

@@ -1,4 +1,5 @@
 use super::*;
+use crate::node::light_emission::Shape;
 use light_math::Aabb;
 use light_math::glam::Vec3;
 
@@ -144,4 +145,39 @@ fn what_is_off_leaves_its_slot_empty() {
         assert_eq!(node.extent.map(|extent| extent[k]), [1; 3], "slot {k}");
     }
     assert!(node.power[..3].iter().all(|&power| power > 0), "others");
+}
+
+/// Spots along and against `w` in one place, all others along `w`.
+fn spots(w: Vec3, against: usize) -> Moments {
+    let spot = |k: usize| Moments {
+        power: 1.0,
+        bounds: Aabb::from_point(Vec3::splat(k as f32)),
+        mean: Vec3::splat(k as f32),
+        axis: if k < against { -w } else { w },
+        line: if k < against { -w } else { w },
+        offset: 0.9,
+        shape: Shape::Steps,
+        ..Moments::NOTHING
+    };
+    Moments::join(&[0, 1, 2, 3].map(spot))
+}
+
+#[test]
+fn offsets_of_opposed_beams_are_odd_and_those_of_other_spots_even() {
+    let mut next = numbers();
+    for _ in 0..100 {
+        let w = vector(&mut next).normalize();
+        let groups = [spots(w, 2), spots(w, 0), spots(w, 4), spots(w, 2)];
+        let node = WideNode::encode(&groups);
+        assert!(node.has_rare(), "{w}");
+        let odd = [0, 1, 2, 3].map(|k| node.offset[k] & 1 == 1);
+        assert_eq!(odd, [true, false, false, true], "{w}: {:?}", node.offset);
+        for (k, group) in groups.iter().enumerate() {
+            assert!((node.offset[k] - 114).abs() <= 1, "{w}: {:?}", node.offset);
+            let axis = Vec3::from_array([0, 1, 2].map(|i| f32::from(node.axis[i][k])));
+            assert!(axis.dot(group.line) > 125.0, "{w}: {axis}");
+        }
+        let plain = WideNode::encode(&[spots(w, 0), spots(w, 4)]);
+        assert!(!plain.has_rare(), "{w}: all beams of a group the same way");
+    }
 }

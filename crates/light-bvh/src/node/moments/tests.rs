@@ -233,3 +233,29 @@ fn the_depth_of_a_group_is_along_its_axis() {
     let one_place = Moments::join(&[lamp(Vec3::ONE, 1.0), lamp(Vec3::ONE, 2.0)]);
     assert!(one_place.depth_var == 0.0, "{one_place:?}");
 }
+
+#[test]
+fn beams_of_opposite_directions_spread_about_their_line() {
+    let w = Vec3::new(0.48, -0.6, 0.64);
+    let beam = |w: Vec3| moments(bounds(w, 0.2, 0.0), 1.0);
+    let tilted = [w, w + 0.1 * Vec3::X, w - 0.1 * Vec3::X].map(Vec3::normalize);
+    let one_way = Moments::join(&tilted.map(beam));
+    let both_ways = Moments::join(&[
+        Moments::join(&tilted.map(beam)),
+        Moments::join(&tilted.map(|w| beam(-w))),
+    ]);
+    assert!(
+        both_ways.is_opposed() && !one_way.is_opposed(),
+        "{both_ways:?}"
+    );
+    assert!(both_ways.axis.length() < 1e-6, "{both_ways:?}");
+    let (a, b) = (one_way.total_spread_sq(), both_ways.total_spread_sq());
+    assert!((a - b).abs() < 1e-3 * a, "{a} and {b}");
+    let wide = |w: Vec3| moments(bounds(w, 1.3, 0.0), 1.0);
+    assert!(
+        !Moments::join(&[wide(w), wide(-w)]).is_opposed(),
+        "wide beams"
+    );
+    let across = Moments::join(&[Vec3::X, Vec3::Y, Vec3::Z, -w].map(beam));
+    assert!(!across.is_opposed(), "{across:?}");
+}
