@@ -35,6 +35,27 @@ impl Deflection {
             sin_theta: wo.cross(across).length(),
         }
     }
+
+    /// The angle whose cosine is less by `from_peak` than that of the peak: straight on where
+    /// `sign` is 1, straight back where it is -1.
+    #[inline]
+    pub(super) fn at_distance_from_peak(from_peak: f32, sign: f32) -> Self {
+        Self {
+            cos_theta: (1.0 - from_peak) * sign,
+            sin_theta: float::sqrt(from_peak * (2.0 - from_peak)),
+        }
+    }
+
+    /// By how much the cosine is less than that of the peak, with all digits near it.
+    #[inline]
+    pub(super) fn distance_from_peak(self, sign: f32) -> f32 {
+        let along = self.cos_theta * sign;
+        if along > 0.0 {
+            self.sin_theta * self.sin_theta / (1.0 + along)
+        } else {
+            1.0 - along
+        }
+    }
 }
 
 #[cfg(test)]

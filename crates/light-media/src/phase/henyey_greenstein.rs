@@ -72,22 +72,12 @@ impl PhaseFunction for HenyeyGreenstein {
 
     #[inline]
     fn value_at(&self, deflection: Deflection) -> f32 {
-        let along = deflection.cos_theta * self.g.signum();
-        let sin = deflection.sin_theta;
-        self.value_from_peak(if along > 0.0 {
-            sin * sin / (1.0 + along)
-        } else {
-            1.0 - along
-        })
+        self.value_from_peak(deflection.distance_from_peak(self.g.signum()))
     }
 
     #[inline]
     fn sample_deflection(&self, u: f32) -> Deflection {
-        let from_peak = self.sample_from_peak(u);
-        Deflection {
-            cos_theta: (1.0 - from_peak) * self.g.signum(),
-            sin_theta: float::sqrt(from_peak * (2.0 - from_peak)),
-        }
+        Deflection::at_distance_from_peak(self.sample_from_peak(u), self.g.signum())
     }
 }
 
@@ -146,44 +136,21 @@ mod tests {
         }
     }
 
-    /// Kolmogorov and Smirnov's test of the angles to the peak, and the densities of the directions.
     #[test]
     fn narrow_peaks_keep_their_distribution() {
-        use crate::phase::Phase;
-        use light_math::glam::{Vec2, Vec3};
-        let mut rng = light_testkit::Rng::new(3);
-        let n = 20_000;
+        use crate::phase::{Phase, tests::check_peak};
         for g in [
             0.0f32, 1e-4, 0.5, -0.5, 0.99, 0.999, -0.999, 0.9999, 0.99999,
         ] {
             let phase = Phase::HenyeyGreenstein(HenyeyGreenstein::new(g).expect("in range"));
-            let wo: Vec3 = rng.direction();
-            let peak = -wo.as_dvec3().normalize() * f64::from(g.signum());
-            let g = f64::from(g).abs();
-            let below = |from_peak: f64| {
+            check_peak(phase, g, |from_peak| {
+                let g = f64::from(g).abs();
                 let root = ((1.0 - g).powi(2) + 2.0 * g * from_peak).sqrt();
                 match g {
                     0.0 => 0.5 * from_peak,
                     _ => (1.0 - g * g) / (2.0 * g) * (1.0 / (1.0 - g) - 1.0 / root),
                 }
-            };
-            let mut shares = alloc::vec::Vec::new();
-            for _ in 0..n {
-                let sample = phase.sample(wo, Vec2::new(rng.f32(), rng.f32()));
-                let chord = sample.wi.as_dvec3().normalize() - peak;
-                shares.push(below(0.5 * chord.length_squared()));
-                let queried = phase.pdf(wo, sample.wi);
-                // A direction is rounded by 1e-7, a peak is as wide as 1 - g.
-                let margin = 1e-5 + 3e-7 / (1.0 - g);
-                let error = f64::from(queried / sample.pdf - 1.0).abs();
-                assert!(error < margin, "{g}: {queried}, {}", sample.pdf);
-            }
-            shares.sort_by(f64::total_cmp);
-            let distance = (0..n).map(|i| (shares[i] - (i as f64 + 0.5) / n as f64).abs());
-            // Chance alone exceeds it once in a million.
-            let limit = 2.7 / (n as f64).sqrt();
-            let distance = distance.fold(0.0, f64::max);
-            assert!(distance < limit, "{g}: {distance}, above {limit}");
+            });
         }
     }
 }

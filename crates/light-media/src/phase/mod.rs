@@ -99,6 +99,7 @@ impl PhaseFunction for Phase {
     fn value_at(&self, deflection: Deflection) -> f32 {
         match self {
             Self::HenyeyGreenstein(f) => f.value_at(deflection),
+            Self::Schlick(f) => f.value_at(deflection),
             other => other.value(deflection.cos_theta),
         }
     }
@@ -106,6 +107,7 @@ impl PhaseFunction for Phase {
     fn sample_deflection(&self, u: f32) -> Deflection {
         match self {
             Self::HenyeyGreenstein(f) => f.sample_deflection(u),
+            Self::Schlick(f) => f.sample_deflection(u),
             other => Deflection::from_cos(other.sample_cos(u)),
         }
     }
@@ -114,6 +116,33 @@ impl PhaseFunction for Phase {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    /// Kolmogorov and Smirnov's test of the angles to a peak, straight on where `k` is positive and
+    /// as wide as `1 - |k|`, and the densities of the directions. `below` is the share of the
+    /// cosines that are less than that of the peak by at most its argument.
+    pub(super) fn check_peak(phase: Phase, k: f32, below: impl Fn(f64) -> f64) {
+        let mut rng = light_testkit::Rng::new(3);
+        let wo: Vec3 = rng.direction();
+        let peak = -wo.as_dvec3().normalize() * f64::from(k.signum());
+        let n = 20_000;
+        let mut shares = alloc::vec::Vec::new();
+        for _ in 0..n {
+            let sample = phase.sample(wo, Vec2::new(rng.f32(), rng.f32()));
+            let chord = sample.wi.as_dvec3().normalize() - peak;
+            shares.push(below(0.5 * chord.length_squared()));
+            let queried = phase.pdf(wo, sample.wi);
+            // A direction is rounded by 1e-7.
+            let margin = 1e-5 + 3e-7 / (1.0 - f64::from(k).abs());
+            let error = f64::from(queried / sample.pdf - 1.0).abs();
+            assert!(error < margin, "{k}: {queried}, {}", sample.pdf);
+        }
+        shares.sort_by(f64::total_cmp);
+        let distance = (0..n).map(|i| (shares[i] - (i as f64 + 0.5) / n as f64).abs());
+        // Chance alone exceeds it once in a million.
+        let limit = 2.7 / (n as f64).sqrt();
+        let distance = distance.fold(0.0, f64::max);
+        assert!(distance < limit, "{k}: {distance}, above {limit}");
+    }
 
     fn all() -> [Phase; 10] {
         let hg = |g| Phase::HenyeyGreenstein(HenyeyGreenstein::new(g).expect("in range"));

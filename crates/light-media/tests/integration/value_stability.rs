@@ -21,7 +21,7 @@ use light_testkit::{Fingerprint, Rng, assert_pinned};
 const PINNED: &[(&str, u64)] = &[
     ("isotropic", 0xb5614355e4b38f62),
     ("Henyey-Greenstein", 0xe69bf9e7c19df117),
-    ("Schlick", 0xe67e1ae2c961ad9b),
+    ("Schlick", 0x27e24d8018457e06),
     ("Rayleigh", 0x28e5e6cdb18662e5),
     ("hazy Mie", 0xdbc95c9e36720bf6),
     ("murky Mie", 0xb93c84dc351e4583),
