@@ -61,8 +61,8 @@ pub use latin_hypercube::LatinHypercube;
 pub use medium::{AnyMedium, Incandescence, TemperatureGrid};
 pub use medium::{
     Coefficients, CoefficientsError, ColorGrid, ColorGridError, ColorGridMedium, DensityGrid,
-    ExponentialHeight, ExponentialHeightError, Glow, Grid, GridError, GridMedium, Homogeneous,
-    MajorantSegment, Majorants, Medium, Substance,
+    ExponentialHeight, ExponentialHeightError, Glow, Grid, GridError, GridMedium, GridMediumError,
+    Homogeneous, MajorantSegment, Majorants, Medium, Substance,
 };
 pub use phase::{Phase, PhaseFunction, PhaseSample};
 #[cfg(feature = "alloc")]

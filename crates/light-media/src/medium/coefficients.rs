@@ -134,6 +134,11 @@ impl<C: ColorModel> Substance<C> {
 }
 
 impl<C: ColorModel> Substance<C> {
+    /// An upper bound of the emission at density 1 over all channels or wavelengths.
+    pub(super) fn max_emission(&self) -> f32 {
+        C::maximum(&self.sigma_a) * C::maximum(&self.le)
+    }
+
     /// Vacuum, given the emission that is black in this colour model.
     fn vacuum(black: &C::Emission) -> Self {
         Self {

@@ -1,10 +1,10 @@
 use super::grid::Grid;
 use super::majorant::Layer;
 use super::majorant_grid::MajorantGrid;
-use super::{Coefficients, Majorants, Medium};
+use super::{Coefficients, GridMediumError, Majorants, Medium};
 use crate::phase::Phase;
 use crate::ray::{Ray, Span};
-use crate::region::{Region, RegionError};
+use crate::region::Region;
 use light_math::Aabb;
 use light_math::glam::{Affine3A, Vec3};
 use light_sources::{ColorModel, Radiance};
@@ -60,6 +60,12 @@ impl<C: ColorModel, S: AsRef<[f32]>> ColorGrid<C, S> {
         basis.fold(C::Radiance::BLACK, |sum, b| sum + b).maximum()
     }
 
+    /// Upper bound of the sum over the cube, for all wavelengths.
+    fn max_value(&self) -> f32 {
+        let ones = self.basis.iter().map(C::maximum).sum::<f32>();
+        ones * self.grid.max_value()
+    }
+
     fn majorants(&self) -> MajorantGrid {
         MajorantGrid::new(self.grid.size(), self.grid.maxima())
     }
@@ -89,7 +95,8 @@ impl<C: ColorModel, S: AsRef<[f32]>> ColorGridMedium<C, S> {
     /// unit length.
     ///
     /// # Errors
-    /// The box is empty, flat or not finite, or the transform has no inverse.
+    /// The box is empty, flat or not finite, the transform has no inverse, or extinction or emission
+    /// is not finite where the grids are largest.
     pub fn new(
         sigma_a: ColorGrid<C, S>,
         sigma_s: ColorGrid<C, S>,
@@ -97,7 +104,10 @@ impl<C: ColorModel, S: AsRef<[f32]>> ColorGridMedium<C, S> {
         phase: Phase,
         bounds: Aabb,
         to_scene: Affine3A,
-    ) -> Result<Self, RegionError> {
+    ) -> Result<Self, GridMediumError> {
+        let absorbed = sigma_a.max_value();
+        let most_le = le.as_ref().map_or(0.0, ColorGrid::max_value);
+        GridMediumError::check(absorbed + sigma_s.max_value(), absorbed * most_le)?;
         Ok(Self {
             majorants: [sigma_a.majorants(), sigma_s.majorants()],
             sigma_a,

@@ -34,6 +34,11 @@ impl<S: AsRef<[f32]>> DensityGrid<S> {
         density
     }
 
+    /// The largest value of all.
+    pub(super) fn max_value(&self) -> f32 {
+        self.grid.max_value()
+    }
+
     /// The maxima of coarse cells.
     #[must_use]
     pub(super) const fn majorants(&self) -> &MajorantGrid {

@@ -64,6 +64,16 @@ impl<C: ColorModel, S> Glow<C, S> {
 }
 
 impl<C: ColorModel, S: AsRef<[f32]>> Glow<C, S> {
+    /// An upper bound of the factor over the cube, for all wavelengths.
+    pub(super) fn max_value(&self) -> f32 {
+        let scale = self.scale.as_ref().map_or(1.0, Grid::max_value);
+        #[cfg(feature = "alloc")]
+        if let Some(temperature) = &self.temperature {
+            return temperature.max_value() * scale;
+        }
+        scale
+    }
+
     /// The factor at `p` of the unit cube.
     pub(super) fn at(&self, p: Vec3, wavelengths: &C::Wavelengths) -> C::Radiance {
         let [scale] = self.scale.as_ref().map_or([1.0], |grid| grid.lookup(p));

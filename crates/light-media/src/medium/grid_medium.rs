@@ -1,7 +1,7 @@
-use super::{Coefficients, DensityGrid, Glow, Majorants, Medium, Substance};
+use super::{Coefficients, DensityGrid, Glow, GridMediumError, Majorants, Medium, Substance};
 use crate::phase::Phase;
 use crate::ray::{Ray, Span};
-use crate::region::{Region, RegionError};
+use crate::region::Region;
 use light_math::Aabb;
 use light_math::glam::{Affine3A, Vec3};
 use light_sources::{ColorModel, Radiance};
@@ -21,12 +21,13 @@ pub struct GridMedium<C: ColorModel, S> {
     glow: Glow<C, S>,
 }
 
-impl<C: ColorModel, S> GridMedium<C, S> {
+impl<C: ColorModel, S: AsRef<[f32]>> GridMedium<C, S> {
     /// The medium in `bounds` of a space that `to_scene` takes to the scene. `density` multiplies
     /// the coefficients of `substance`, and `glow` its emission in addition.
     ///
     /// # Errors
-    /// The box is empty, flat or not finite, or the transform has no inverse.
+    /// The box is empty, flat or not finite, the transform has no inverse, or extinction or emission
+    /// is not finite where the grids are largest.
     pub fn new(
         substance: Substance<C>,
         phase: Phase,
@@ -34,7 +35,14 @@ impl<C: ColorModel, S> GridMedium<C, S> {
         to_scene: Affine3A,
         density: DensityGrid<S>,
         glow: Glow<C, S>,
-    ) -> Result<Self, RegionError> {
+    ) -> Result<Self, GridMediumError> {
+        let most = density.max_value();
+        // The emission without glow is a number too: it is multiplied last.
+        let most_glow = glow.max_value().max(1.0);
+        GridMediumError::check(
+            most * substance.max_sigma_t(),
+            most * substance.max_emission() * most_glow,
+        )?;
         Ok(Self {
             substance,
             phase,

@@ -9,6 +9,7 @@ mod exponential;
 mod glow;
 mod grid;
 mod grid_medium;
+mod grid_medium_error;
 mod height_bands;
 mod homogeneous;
 mod majorant;
@@ -25,6 +26,7 @@ pub use exponential::{ExponentialHeight, ExponentialHeightError};
 pub use glow::Glow;
 pub use grid::{Grid, GridError};
 pub use grid_medium::GridMedium;
+pub use grid_medium_error::GridMediumError;
 pub use homogeneous::Homogeneous;
 pub use majorant::{MajorantSegment, Majorants};
 #[cfg(feature = "alloc")]

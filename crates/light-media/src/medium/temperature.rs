@@ -61,6 +61,11 @@ impl<C: Incandescence, S: AsRef<[f32]>> TemperatureGrid<C, S> {
 }
 
 impl<C: ColorModel, S: AsRef<[f32]>> TemperatureGrid<C, S> {
+    /// An upper bound of the emission over the cube, for all wavelengths.
+    pub(super) fn max_value(&self) -> f32 {
+        self.colors.iter().map(C::maximum).fold(0.0, f32::max)
+    }
+
     /// The emission at `p` of the unit cube.
     #[expect(
         clippy::cast_possible_truncation,

@@ -5,8 +5,8 @@ use light_media::light_math::Aabb;
 use light_media::phase::{Isotropic, Phase};
 use light_media::transmittance::ratio_tracking;
 use light_media::{
-    DensityGrid, Glow, GridMedium, Homogeneous, Medium, Ray, Region, Span, Substance,
-    delta_tracking,
+    ColorGrid, ColorGridMedium, DensityGrid, Glow, Grid, GridMedium, GridMediumError, Homogeneous,
+    Medium, Ray, Region, RegionError, Span, Substance, TemperatureGrid, delta_tracking,
 };
 use light_sources::Rgb;
 
@@ -137,4 +137,85 @@ fn cells_of_usual_boxes_have_bounds_of_their_own() {
         16,
         "cells"
     );
+}
+
+/// A density that is a number times coefficients that are numbers, of which the products are none.
+#[test]
+fn grids_that_exceed_what_a_float_holds_are_refused() {
+    let phase = Phase::Isotropic(Isotropic);
+    let cube = Aabb::new(Vec3::ZERO, Vec3::ONE);
+    let one = |value| Grid::new([1; 3], [value]).expect("a grid");
+    let make = |[density, sigma_a, sigma_s, le]: [f32; 4], glow: Glow<Rgb, [f32; 1]>| {
+        let substance =
+            Substance::<Rgb>::new(Vec3::X * sigma_a, Vec3::Y * sigma_s, Vec3::splat(le));
+        let density = DensityGrid::new([1; 3], [density]).expect("a grid");
+        let substance = substance.expect("coefficients");
+        let medium = GridMedium::new(substance, phase, cube, Affine3A::IDENTITY, density, glow);
+        medium.map(|medium| medium.coefficients(Vec3::splat(0.5), &()))
+    };
+    let colored = |values: [f32; 3]| {
+        let grid = |value| Grid::new([1; 3], [0.5 * value, value, 0.0]).expect("a grid");
+        let [a, s, le] = values.map(|value| {
+            ColorGrid::<Rgb, _>::new([Vec3::X, Vec3::Y, Vec3::Z], grid(value)).expect("colours")
+        });
+        let medium = ColorGridMedium::new(a, s, Some(le), phase, cube, Affine3A::IDENTITY);
+        medium.map(|medium| medium.coefficients(Vec3::splat(0.5), &()))
+    };
+    let uniform = Glow::uniform;
+    let glow = || Glow::scaled(one(1e20));
+    let hot = || Glow {
+        scale: Some(one(1e38)),
+        ..Glow::of_temperature(TemperatureGrid::new(one(5000.0)))
+    };
+    for (found, expected) in [
+        (make([1e20, 1.0, 1.0, 1.0], uniform()), None),
+        (
+            make([1e20, 1e20, 0.0, 0.0], uniform()),
+            Some(GridMediumError::SigmaT),
+        ),
+        (
+            make([1e20, 0.0, 1e20, 0.0], uniform()),
+            Some(GridMediumError::SigmaT),
+        ),
+        (
+            make([f32::MAX, 1.0, 0.0, 0.0], uniform()),
+            Some(GridMediumError::SigmaT),
+        ),
+        (
+            make([1e20, 1.0, 1.0, 1e20], uniform()),
+            Some(GridMediumError::Emission),
+        ),
+        (
+            make([1e10, 1.0, 1.0, 1e10], glow()),
+            Some(GridMediumError::Emission),
+        ),
+        (make([1e10, 1.0, 1.0, 1e5], glow()), None),
+        (
+            make([1.0, 10.0, 0.0, 1.0], hot()),
+            Some(GridMediumError::Emission),
+        ),
+        (colored([1e20, 1e20, 1e10]), None),
+        (colored([3e38, 3e38, 0.0]), Some(GridMediumError::SigmaT)),
+        (colored([1e20, 0.0, 1e20]), Some(GridMediumError::Emission)),
+    ] {
+        if let Ok(here) = found {
+            let all = here.sigma_a + here.sigma_s + here.emission;
+            assert!(all.is_finite(), "{here:?}");
+        }
+        assert_eq!(found.err(), expected, "{found:?}");
+    }
+    let empty = Aabb::EMPTY;
+    let density = DensityGrid::new([1; 3], [1.0]).expect("a grid");
+    let substance = Substance::<Rgb>::default();
+    let refused = GridMedium::new(
+        substance,
+        phase,
+        empty,
+        Affine3A::IDENTITY,
+        density,
+        uniform(),
+    )
+    .err();
+    let expected = GridMediumError::Region(RegionError::Bounds);
+    assert_eq!(refused, Some(expected), "empty");
 }
