@@ -2,7 +2,7 @@ use super::bilinear_patch_error::BilinearPatchError;
 use super::flat_quad::FlatQuad;
 use super::normal::{normal_length, unit_normal};
 use super::patch_area;
-use super::rounding::is_within_rounding;
+use super::rounding::{is_in_plane, is_within_rounding};
 use super::solid_angle::{LEAST_DENSITY, area_to_solid_angle};
 use super::{Shape, ShapeDirectionSample, ShapeSample, UvArea, UvDensity};
 use crate::glam::{Vec2, Vec3};
@@ -172,6 +172,12 @@ impl BilinearPatch {
         turns(n).count() == 1 && turns(-n).count() == 2
     }
 
+    /// Whether the receiver may be a point of the plane of a flat patch.
+    fn is_own(&self, ctx: &LightSampleContext) -> bool {
+        let normal = || unit_normal(self.scaled_normal(Vec2::ZERO));
+        self.bend == Bend::Flat && normal().is_some_and(|n| is_in_plane(ctx, self.p00, n))
+    }
+
     /// The view of a flat patch that is not small.
     fn flat(&self, ctx: &LightSampleContext) -> Option<FlatQuad> {
         match self.bend {
@@ -229,6 +235,9 @@ impl Shape for BilinearPatch {
     /// Of a patch that is not flat, a point by area, unless another part of the patch hides it, or
     /// it is at such a grazing angle that a ray toward it misses.
     fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<ShapeDirectionSample> {
+        if self.is_own(ctx) {
+            return None;
+        }
         if let Some(flat) = self.flat(ctx) {
             let sample = flat.sample(ctx, u)?;
             let (uv, _) = self.intersect(ctx.p, sample.wi)?;
@@ -254,6 +263,9 @@ impl Shape for BilinearPatch {
     }
 
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
+        if self.is_own(ctx) {
+            return 0.0;
+        }
         if let Some(flat) = self.flat(ctx) {
             return flat.pdf(ctx, wi);
         }

@@ -3,7 +3,7 @@ use core::f32::consts::{PI, TAU};
 use core::fmt;
 
 use super::azimuth::azimuth;
-use super::rounding::{hit_slack, with_density_of_ray};
+use super::rounding::{hit_slack, is_in_plane, with_density_of_ray};
 use super::solid_angle::area_to_solid_angle;
 use super::{Shape, ShapeDirectionSample, ShapeSample, UvArea, UvDensity};
 use crate::glam::{Vec2, Vec3};
@@ -89,6 +89,10 @@ impl Disk {
         }
     }
 
+    fn is_own(&self, ctx: &LightSampleContext) -> bool {
+        is_in_plane(ctx, self.transform.origin(), self.transform.axis())
+    }
+
     /// The point at `local` of the disk's own plane.
     fn at(&self, local: Vec2) -> SurfacePoint {
         let u = azimuth(local.extend(0.0));
@@ -148,6 +152,9 @@ impl Shape for Disk {
     }
 
     fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<ShapeDirectionSample> {
+        if self.is_own(ctx) {
+            return None;
+        }
         let ShapeSample { at, pdf } = self.sample(u)?;
         let to_light = at.p - ctx.p;
         let (wi, pdf) = area_to_solid_angle(pdf, to_light, at.n)?;
@@ -155,6 +162,9 @@ impl Shape for Disk {
     }
 
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
+        if self.is_own(ctx) {
+            return 0.0;
+        }
         let pdf = |at: SurfacePoint| area_to_solid_angle(1.0 / self.area(), at.p - ctx.p, at.n);
         self.hit(ctx.p, wi)
             .and_then(pdf)

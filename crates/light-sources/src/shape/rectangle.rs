@@ -3,7 +3,7 @@ use core::fmt;
 
 use super::normal::unit_normal;
 use super::receiver_cosine::ReceiverCosine;
-use super::rounding::{hit_slack, with_density_of_ray};
+use super::rounding::{hit_slack, is_in_plane, with_density_of_ray};
 use super::solid_angle::{LEAST_DENSITY, SMALL, area_to_solid_angle};
 use super::{Shape, ShapeDirectionSample, ShapeSample};
 use crate::glam::{Vec2, Vec3};
@@ -95,6 +95,10 @@ impl Rectangle {
         seen.filter(|seen| seen.solid_angle() > SMALL)
     }
 
+    fn is_own(&self, ctx: &LightSampleContext) -> bool {
+        is_in_plane(ctx, self.corner, self.normal)
+    }
+
     fn receiver_cosine(&self, ctx: &LightSampleContext) -> ReceiverCosine {
         ReceiverCosine::new(ctx, self.corners())
     }
@@ -145,6 +149,9 @@ impl Shape for Rectangle {
     }
 
     fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<ShapeDirectionSample> {
+        if self.is_own(ctx) {
+            return None;
+        }
         let Some(seen) = self.seen_from(ctx.p) else {
             let (at, to_light) = (self.at(u), self.toward(ctx.p, u));
             let (wi, pdf) = self.by_area(to_light)?;
@@ -159,6 +166,9 @@ impl Shape for Rectangle {
     }
 
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
+        if self.is_own(ctx) {
+            return 0.0;
+        }
         let Some(at) = self.hit(ctx.p, wi) else {
             return 0.0;
         };

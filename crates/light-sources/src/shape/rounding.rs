@@ -1,5 +1,6 @@
 //! Rounding of the places where directions meet a surface.
 
+use super::sphere::OWN_ERROR;
 use super::{Shape, ShapeDirectionSample};
 use crate::glam::Vec3;
 use crate::surface_point::SurfacePoint;
@@ -18,6 +19,21 @@ pub(super) const GRAZING: f32 = 1e-3;
 pub(super) fn is_within_rounding(wi: Vec3, to_light: Vec3, at: &SurfacePoint) -> bool {
     let is_close = to_light.length_squared() < CLOSE * CLOSE * at.p.length_squared();
     is_close || wi.dot(at.n).abs() < GRAZING
+}
+
+/// The sine below which a receiver's normal is that of a flat surface: some are stored with few
+/// digits.
+const PARALLEL: f32 = 1e-3;
+
+/// Whether the receiver may be a point of the plane through `on` with the unit normal `n`, wherever
+/// rounding has put it: by its place and its normal. Nothing in a plane lights it, but from 1e-8
+/// below, an emitter covers the half space.
+#[inline]
+pub(super) fn is_in_plane(ctx: &LightSampleContext, on: Vec3, n: Vec3) -> bool {
+    let size = on.abs().max(ctx.p.abs()).max_element();
+    let error = 2.0 * ctx.p_error.dot(n.abs()) + OWN_ERROR * size;
+    let is_parallel = |other: Vec3| other.cross(n).length_squared() <= PARALLEL * PARALLEL;
+    (ctx.p - on).dot(n).abs() <= error && ctx.n().is_some_and(is_parallel)
 }
 
 /// The sample of a flat `shape`, with the density that a query has for its direction where rounding

@@ -1,6 +1,6 @@
 use super::normal::{has_digits, normal_length, unit_normal};
 use super::receiver_cosine::ReceiverCosine;
-use super::rounding::with_density_of_ray;
+use super::rounding::{is_in_plane, with_density_of_ray};
 use super::solid_angle::{SMALL, area_to_solid_angle};
 use super::{Shape, ShapeDirectionSample, ShapeSample, TriangleError, UvArea};
 use crate::glam::{Vec2, Vec3};
@@ -203,14 +203,16 @@ impl Shape for Triangle {
 
     #[inline]
     fn sample_toward(&self, ctx: &LightSampleContext, u: Vec2) -> Option<ShapeDirectionSample> {
+        let (n, inv_area) = self.normal_and_inv_area()?;
+        if is_in_plane(ctx, self.p[0], n) {
+            return None;
+        }
         let Some(seen) = self.seen_from(ctx.p) else {
-            let (n, inv_area) = self.normal_and_inv_area()?;
             let b = uniform_triangle::sample(u);
             let (at, to_light) = (self.at(b, n), self.toward(ctx.p, b));
             let (wi, pdf) = area_to_solid_angle(inv_area, to_light, n)?;
             return with_density_of_ray(self, ctx, to_light, ShapeDirectionSample { at, wi, pdf });
         };
-        let (n, _) = self.normal_and_inv_area()?;
         let (u, pdf) = Self::receiver_cosine(ctx, &seen).sample(u);
         let b = seen.sample(u);
         let (at, to_light) = (self.at(b, n), self.toward(ctx.p, b));
@@ -224,6 +226,9 @@ impl Shape for Triangle {
         let Some(((n, inv_area), (b, to_light))) = met else {
             return 0.0;
         };
+        if is_in_plane(ctx, self.p[0], n) {
+            return 0.0;
+        }
         match self.seen_from(ctx.p) {
             Some(seen) => Self::receiver_cosine(ctx, &seen).pdf(|| seen.invert(b)) * seen.pdf(),
             None => area_to_solid_angle(inv_area, to_light, n).map_or(0.0, |(_, pdf)| pdf),

@@ -31,6 +31,8 @@ mod light_refs;
 mod masks;
 #[cfg(feature = "std")]
 mod own_lights;
+#[cfg(feature = "std")]
+mod own_plane;
 mod photometric;
 #[cfg(feature = "std")]
 mod picture_edges;
