@@ -12,6 +12,7 @@ mod atomic_file;
 mod builtin;
 mod builtin_sky;
 mod camera;
+mod coincident_emitters;
 mod color;
 #[cfg(test)]
 mod corrupted_files;

@@ -1,11 +1,12 @@
 //! All ways to find light have the same mean, and threads change nothing.
 
 use core::num::NonZeroU32;
+use std::path::Path;
 
 use light_render::SamplerKind;
 use light_render::integrator::Estimator;
 use light_scene::glam::Vec3;
-use light_scene::{Camera, Emission, Material, Mesh, Scene};
+use light_scene::{Camera, Diagnostic, Emission, Files, Material, Mesh, Scene, parse_scene};
 
 use crate::support::{
     Shot, agree, assert_estimators_agree, assert_threads_change_nothing, cornell, lamps,
@@ -139,4 +140,31 @@ fn a_lamp_does_not_light_its_own_back() {
         let (mean, _) = shot.mean(&scene);
         assert_eq!(mean.max_element(), 0.0, "{estimator:?}");
     }
+}
+
+/// The second of two coincident faces is left out: rays hit one of them, but light samples found
+/// both, so that means were up to twice as bright.
+#[test]
+fn a_lamp_that_a_file_lists_twice_is_one() {
+    let lamp = "f 1 2 3 4\n";
+    fn mtl(_: &Path) -> Result<Vec<u8>, Diagnostic> {
+        Ok(b"newmtl matt\nKd .5 .5 .5\nnewmtl lamp\nKe 1 1 1\n".to_vec())
+    }
+    let read = |text: &str| {
+        let mut scene = parse_scene(Path::new("a.obj"), text.as_bytes(), Files::new(&mtl));
+        let scene = scene.as_mut().expect("a scene");
+        let (eye, target) = (Vec3::new(0.5, 0.3, 3.0), Vec3::new(0.5, 0.0, 0.0));
+        scene.camera = Camera::look_at(eye, target, Vec3::Y, 0.6).ok();
+        scene.clone()
+    };
+    let start = "mtllib a.mtl\nv 0 1 0\nv 1 1 0\nv 1 1 1\nv 0 1 1\n\
+                 v -1 0 -1\nv -1 0 2\nv 2 0 2\nv 2 0 -1\n\
+                 usemtl matt\nf 5 6 7 8\nusemtl lamp\n";
+    let once = read(&format!("{start}o first\n{lamp}"));
+    let twice = read(&format!("{start}o first\n{lamp}o second\n{lamp}"));
+    assert_eq!(once.warnings, [], "as usual");
+    assert_eq!(twice.warnings.len(), 1, "{:?}", twice.warnings);
+    assert_estimators_agree(&twice);
+    let shot = Shot::of_direct_light(Estimator::Light);
+    assert_eq!(shot.mean(&twice), shot.mean(&once), "one lamp");
 }

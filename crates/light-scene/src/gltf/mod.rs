@@ -59,5 +59,7 @@ pub fn read_gltf(path: &Path) -> Result<Scene, Diagnostic> {
 pub(crate) fn parse_gltf(path: &Path, bytes: &[u8], files: Files<'_>) -> Result<Scene, Diagnostic> {
     let glb::Chunks { json, binary } = glb::chunks(path, bytes)?;
     let document = document::Document::parse(path, json)?;
-    reader::Reader::new(&document, binary, files)?.read()
+    let mut scene = reader::Reader::new(&document, binary, files)?.read()?;
+    scene.drop_coincident_emitters(path);
+    Ok(scene)
 }

@@ -76,6 +76,7 @@ pub fn parse_obj(path: &Path, text: &str, files: Files<'_>) -> Result<Scene, Dia
         let message = format!("expected at least one face (`f`){with_area}");
         return Err(Diagnostic::file(path, message));
     }
+    scene.drop_coincident_emitters(path);
     Ok(scene)
 }
 

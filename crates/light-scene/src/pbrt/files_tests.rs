@@ -58,7 +58,7 @@ fn materials_may_be_described_after_their_use() {
     let light = "AreaLightSource \"diffuse\" \"rgb L\" [ 1 1 1 ]";
     let text = format!(
         "WorldBegin NamedMaterial \"red\" {light} {TRIANGLE} Material \"mix\" \
-         \"string materials\" [\"red\" \"blue\"] {TRIANGLE}
+         \"string materials\" [\"red\" \"blue\"] Translate 0 0 1 {TRIANGLE}
         Include \"materials.pbrt\" MakeNamedMaterial \"blue\" \"string type\" \"interface\""
     );
     let scene = read(&text).expect("a scene");

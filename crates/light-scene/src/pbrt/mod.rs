@@ -97,7 +97,11 @@ pub(crate) fn parse_pbrt(
     reader.files = files;
     path.clone_into(&mut reader.root);
     match reader.file(path, text, 0) {
-        Ok(()) => reader.finish(path),
+        Ok(()) => {
+            let mut scene = reader.finish(path)?;
+            scene.drop_coincident_emitters(path);
+            Ok(scene)
+        }
         Err(error) => Err(reader.explained(error)),
     }
 }

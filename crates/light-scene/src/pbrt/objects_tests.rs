@@ -84,7 +84,7 @@ fn misplaced_objects_give_one_clear_line() {
 fn too_many_placed_lights_are_refused_at_their_instance() {
     let object = "WorldBegin ObjectBegin \"lamp\" AreaLightSource \"diffuse\" \"rgb L\" [1 1 1]
         Shape \"sphere\" \"float zmax\" .5 ObjectEnd\n";
-    let instance = "ObjectInstance \"lamp\"\n";
+    let instance = "Translate 1 0 0 ObjectInstance \"lamp\"\n";
     let one = read("pbrt_lamp", &format!("{object}{instance}")).expect("a scene");
     let most = MAX_EMISSIVE_PRIMITIVES / one.emissive_triangle_count();
     let scene = read("pbrt_lamps", &format!("{object}{}", instance.repeat(most)));
