@@ -1,4 +1,4 @@
-use crate::environment_table::{EnvironmentTable, INSETS, NUDGES, ROUNDING};
+use crate::environment_table::EnvironmentTable;
 use crate::glam::{Vec2, Vec3};
 use crate::image::Image;
 use crate::mis_compensation::compensate;
@@ -8,7 +8,7 @@ use crate::rigid_transform::RigidTransform;
 use crate::sky_means::SkyMeans;
 use crate::sky_sample::SkySample;
 use crate::sphere_table::{SphereSample, SphereTable};
-use light_math::equal_area::{sphere_to_square, square_to_sphere};
+use light_math::equal_area::square_to_sphere;
 
 /// Directions of the sphere in proportion to the texels of an equal-area image.
 ///
@@ -48,9 +48,6 @@ impl EqualAreaSky {
     }
 
     /// A direction in the scene, chosen by `u`; `None` if the image is black.
-    ///
-    /// The direction is one of the texel that was chosen, after all rounding, so that queries
-    /// return for it the values of the sample, unless the texel is smaller than rounding.
     pub(crate) fn sample(
         &self,
         image: &Image,
@@ -58,29 +55,13 @@ impl EqualAreaSky {
         coverage: PdfCoverage,
         transform: &RigidTransform,
     ) -> Option<SkySample> {
-        let SphereSample { uv, w, pdf, texel } = self.of(coverage).sample(u)?;
-        let texel = texel.map(saturated);
-        let (mut uv, mut wi) = (uv, transform.vector(w));
-        let corner = Vec2::new(texel[0] as f32, texel[1] as f32);
-        let from_middle = uv * image.extent() - corner - 0.5;
-        // Rounding of a direction moves it by a part of the sphere, not of a texel.
-        let reach = from_middle.abs() + ROUNDING * image.extent();
-        if reach.max_element() >= 0.5 {
-            // By the least that suffices, on the square: then as in a lat-long map.
-            let nudges = NUDGES.map(|nudge| {
-                let most = (0.5 - nudge * image.extent()).max(Vec2::ZERO);
-                from_middle.clamp(-most, most)
-            });
-            let insets = INSETS.map(|inset| from_middle * inset);
-            for place in nudges.into_iter().chain(insets) {
-                let back = sphere_to_square(transform.inverse_vector(wi));
-                if image.texel_at(back) == texel {
-                    break;
-                }
-                uv = (corner + 0.5 + place) / image.extent();
-                wi = transform.vector(square_to_sphere(uv));
-            }
-        }
+        let table = self.of(coverage);
+        let SphereSample {
+            uv,
+            w: wi,
+            pdf,
+            texel,
+        } = table.sample(u, transform)?;
         let [x, y] = texel;
         Some(SkySample {
             uv,
@@ -94,11 +75,6 @@ impl EqualAreaSky {
     pub(crate) fn pdf(&self, w: Vec3, coverage: PdfCoverage) -> f32 {
         self.of(coverage).pdf(w)
     }
-}
-
-/// The index of a texel, of an image whose sides are `u32`.
-fn saturated(index: usize) -> u32 {
-    u32::try_from(index).unwrap_or(u32::MAX)
 }
 
 /// Texels along a side up to which a texel is wider than its centre can stand for.

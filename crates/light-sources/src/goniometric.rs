@@ -181,10 +181,12 @@ impl<C: ColorModel> PointSource for GoniometricLight<C> {
         _u2: Vec2,
         wavelengths: &C::Wavelengths,
     ) -> Option<DirectionSample<C::Radiance>> {
-        let SphereSample { uv, w, pdf, .. } = self.table.sample(u1)?;
+        let sample = self.table.sample(u1, &self.transform)?;
+        let SphereSample { w, pdf, texel, .. } = sample;
+        let [x, y] = texel;
         Some(DirectionSample {
-            w: self.transform.vector(w),
-            intensity: self.intensity.at(wavelengths) * self.image.nearest(uv).x,
+            w,
+            intensity: self.intensity.at(wavelengths) * self.image.texel(x, y).x,
             pdf,
         })
     }

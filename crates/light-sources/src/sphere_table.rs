@@ -1,8 +1,9 @@
 use alloc::vec::Vec;
 use core::f32::consts::FRAC_1_PI;
 
-use crate::environment_table::EnvironmentTable;
+use crate::environment_table::{EnvironmentTable, INSETS, NUDGES, ROUNDING};
 use crate::glam::{Vec2, Vec3};
+use crate::rigid_transform::RigidTransform;
 use light_math::SphereMap;
 use light_math::distribution::{PiecewiseConstant2D, Sample2D};
 use light_math::equal_area::{sphere_to_square, square_to_sphere};
@@ -17,12 +18,12 @@ pub(crate) struct SphereTable(Option<PiecewiseConstant2D<Vec<f32>>>);
 pub(crate) struct SphereSample {
     /// The point of the image.
     pub(crate) uv: Vec2,
-    /// The unit direction.
+    /// The unit direction in the scene.
     pub(crate) w: Vec3,
     /// Its density in sr^-1, above 0.
     pub(crate) pdf: f32,
     /// Column and row of the texel.
-    pub(crate) texel: [usize; 2],
+    pub(crate) texel: [u32; 2],
 }
 
 /// The whole square is the whole sphere.
@@ -60,15 +61,42 @@ impl SphereTable {
         })
     }
 
-    pub(crate) fn sample(&self, u: Vec2) -> Option<SphereSample> {
-        let Sample2D { p: uv, pdf, texel } = self.0.as_ref()?.sample(u);
+    /// A direction in the scene, to which `transform` leads; `None` if the image is black.
+    ///
+    /// The direction is one of the texel that was chosen, after all rounding, so that queries
+    /// return for it the values of the sample, unless the texel is smaller than rounding.
+    pub(crate) fn sample(&self, u: Vec2, transform: &RigidTransform) -> Option<SphereSample> {
+        let table = self.0.as_ref()?;
+        let Sample2D { p, pdf, texel } = table.sample(u);
         let pdf = pdf * PER_STERADIAN;
+        let n = table.resolution()[0] as f32;
+        let (mut uv, mut w) = (p, transform.vector(square_to_sphere(p)));
+        let corner = Vec2::new(texel[0] as f32, texel[1] as f32);
+        let from_middle = uv * n - corner - 0.5;
+        // Rounding of a direction moves it by a part of the sphere, not of a texel.
+        let reach = from_middle.abs() + ROUNDING * n;
+        if reach.max_element() >= 0.5 {
+            // By the least that suffices, on the square: then as in a lat-long map.
+            let nudges = NUDGES.map(|nudge| {
+                let most = Vec2::splat((0.5 - nudge * n).max(0.0));
+                from_middle.clamp(-most, most)
+            });
+            let insets = INSETS.map(|inset| from_middle * inset);
+            for place in nudges.into_iter().chain(insets) {
+                let back = sphere_to_square(transform.inverse_vector(w));
+                if table.texel_at(back) == Some(texel) {
+                    break;
+                }
+                uv = (corner + 0.5 + place) / n;
+                w = transform.vector(square_to_sphere(uv));
+            }
+        }
         // The least of all densities is none in another unit.
         (pdf > 0.0).then(|| SphereSample {
             uv,
-            w: square_to_sphere(uv),
+            w,
             pdf,
-            texel,
+            texel: texel.map(saturated),
         })
     }
 
@@ -77,4 +105,9 @@ impl SphereTable {
             .as_ref()
             .map_or(0.0, |table| table.pdf(sphere_to_square(w)) * PER_STERADIAN)
     }
+}
+
+/// The index of a texel, of an image whose sides are `u32`.
+fn saturated(index: usize) -> u32 {
+    u32::try_from(index).unwrap_or(u32::MAX)
 }

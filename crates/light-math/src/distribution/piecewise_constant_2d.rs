@@ -151,10 +151,17 @@ impl<S: AsRef<[f32]>> PiecewiseConstant2D<S> {
     #[inline]
     #[must_use]
     pub fn pdf(&self, p: Vec2) -> f32 {
-        match (self.x.locate(p.x), self.y.locate(p.y)) {
-            (Some((column, _)), Some((row, _))) => self.densities(row)[column] / self.area(),
-            _ => 0.0,
-        }
+        self.texel_at(p).map_or(0.0, |[column, row]| {
+            self.densities(row)[column] / self.area()
+        })
+    }
+
+    /// Column and row of the texel that holds `p`; `None` outside the domain.
+    #[inline]
+    #[must_use]
+    pub fn texel_at(&self, p: Vec2) -> Option<[usize; 2]> {
+        let ((column, _), (row, _)) = self.x.locate(p.x).zip(self.y.locate(p.y))?;
+        Some([column, row])
     }
 
     /// The `u` in `[0, 1]^2` that [`sample`](Self::sample) takes to `p`; `None` outside the domain.

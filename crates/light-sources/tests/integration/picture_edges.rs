@@ -178,3 +178,28 @@ fn directions_at_the_edge_of_a_texel_of_the_sky_are_its_own() {
         }
     }
 }
+
+/// As of a sky: a goniometric light has one table of them too.
+#[test]
+fn directions_at_the_edge_of_a_texel_of_a_luminaire_are_its_own() {
+    for n in 2..=6u32 {
+        for lit in 0..n * n {
+            // A single texel, seen up to all its corners.
+            let texels = (0..n * n).map(|i| f32::from(i == lit)).collect::<Vec<_>>();
+            let image = Image::from_f32([n, n], Channels::Gray, texels).expect("an image");
+            for i in 0..12 {
+                let amount = IntensityAmount::default();
+                let desc = GoniometricLightDesc::new(turn(i), image.clone(), Vec3::ONE, amount);
+                let light = GoniometricLight::<Rgb>::new(desc).expect("a light");
+                let ends = [0.0, f32::MIN_POSITIVE, 0.5, ONE_MINUS_EPSILON];
+                for u in ends.into_iter().flat_map(|x| ends.map(|y| Vec2::new(x, y))) {
+                    let what = format!("{lit} of {n} x {n}, turn {i}, {u}");
+                    let sample = light.sample_le(u, Vec2::ZERO, &()).expect("a sample");
+                    assert_eq!(light.pdf_le(&sample.ray).dir, sample.pdf.dir, "{what}");
+                    let l = light.intensity(sample.ray.direction, &());
+                    assert_eq!(l, sample.l, "{what}");
+                }
+            }
+        }
+    }
+}
