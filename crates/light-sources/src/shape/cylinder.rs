@@ -208,7 +208,8 @@ impl Shape for Cylinder {
         if self.is_own(ctx) {
             return self.pdf_of_own(ctx.p, wi).unwrap_or(0.0);
         }
-        self.view(ctx.p).pdf(self.transform.inverse_vector(wi))
+        let wi = self.transform.inverse_vector(wi);
+        self.view(ctx.p).pdf(wi, ctx.p_error.length())
     }
 
     fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {

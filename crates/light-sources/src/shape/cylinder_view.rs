@@ -99,15 +99,17 @@ impl CylinderView {
         })
     }
 
-    pub(super) fn pdf(&self, wi: Vec3) -> f32 {
+    /// The density of the direction `wi`, where a ray may start by `moved` beside the point.
+    pub(super) fn pdf(&self, wi: Vec3, moved: f32) -> f32 {
         let pdf = || {
             let horizontal = wi.truncate().length();
             let direction = wi.truncate().try_normalize()?;
             let (sin, cos) = (self.inward.perp_dot(direction), self.inward.dot(direction));
-            // The wall is enlarged by the rounding error of the direction.
-            let aside = 4.0 * f32::EPSILON / horizontal;
+            // The wall is enlarged by the rounding error of the direction, and by that of the point.
+            let turned = 4.0 * f32::EPSILON / horizontal;
+            let aside = turned * self.distance + moved;
             let is_outside = self.half_angle.is_some();
-            if is_outside && !(cos > 0.0 && sin.abs() <= self.radius / self.distance + aside) {
+            if is_outside && !(cos > 0.0 && sin.abs() * self.distance <= self.radius + aside) {
                 return None;
             }
             let column = self.column(sin, cos);
@@ -116,7 +118,8 @@ impl CylinderView {
             let is_met = |strip: Option<(Strip, Vec2)>| {
                 strip.is_some_and(|(s, _)| {
                     let height = slope * s.distance;
-                    let slack = aside * (s.distance + height.abs()) + slope.abs() * depth;
+                    let rim = turned * (s.distance + height.abs()) + moved * (1.0 + slope.abs());
+                    let slack = rim + slope.abs() * depth;
                     (s.low - slack..=s.high + slack).contains(&height)
                 })
             };
@@ -127,10 +130,10 @@ impl CylinderView {
         pdf().unwrap_or(0.0)
     }
 
-    /// How far the wall recedes where the plane is turned by the small angle `aside`: by much more
+    /// How far the wall recedes where the plane is moved by the small length `aside`: by much more
     /// at the silhouette than elsewhere.
     fn depth_change(&self, sin: f32, aside: f32) -> f32 {
-        let (offset, aside) = ((self.distance * sin).abs(), self.distance * aside);
+        let offset = (self.distance * sin).abs();
         aside + self.half_chord((offset - aside).max(0.0)) - self.half_chord(offset + aside)
     }
 

@@ -243,7 +243,9 @@ impl Shape for Sphere {
             return self.pdf_from_inside(ctx.p, wi).unwrap_or(0.0);
         };
         let sin = cone.axis.cross(wi).length();
-        if cone.axis.dot(wi) > 0.0 && sin <= cone.sin_max + DIRECTION_ERROR {
+        // A ray may start by the error of the point beside it.
+        let moved = ctx.p_error.length() / self.radius * cone.sin_max;
+        if cone.axis.dot(wi) > 0.0 && sin <= cone.sin_max + DIRECTION_ERROR + moved {
             uniform_cone::pdf(cone.one_minus_cos_max)
         } else {
             0.0

@@ -4,7 +4,9 @@
 use core::f64::consts::PI;
 
 use light_bounds::LightSampleContext;
-use light_math::glam::{DVec3, Quat, Vec3};
+use light_math::glam::{Affine3A, DVec3, Quat, Vec2, Vec3};
+use light_math::warp::cosine_hemisphere;
+use light_math::{Frame, mis};
 use light_sources::shape::{AnyShape, Shape, ShapeDesc};
 use light_testkit::{Estimate, Rng};
 
@@ -233,4 +235,49 @@ fn flat_quads_stay_flat() {
     }
     let (flat, bent) = (errors(trapezoid)[0], errors(bent)[0]);
     assert!(bent > 1.3 * flat, "a bent one has {bent}, not {flat}");
+}
+
+/// Rays start beside their surface, by as much as the rounding of its points, and see a little more
+/// of a round light on one side and less on the other: the weights of both kinds of samples still
+/// balance.
+#[test]
+fn rays_that_start_beside_the_receiver_have_the_density_of_samples() {
+    const STEPS: u16 = 512;
+    let at = Vec3::new(9000.0, -8000.0, 10_000.0);
+    let tube = ShapeDesc::Cylinder {
+        transform: Affine3A::from_rotation_translation(Quat::from_rotation_x(1.2), at),
+        radius: 0.125,
+        length: 1.5,
+    };
+    for (name, desc) in [("ball", ShapeDesc::sphere(at, 0.125)), ("tube", tube)] {
+        let shape = desc.build().expect("a shape");
+        for from in [Vec3::new(1.0, -0.5, 0.25), Vec3::new(-0.5, 0.25, 0.75)] {
+            let n = (Vec3::new(0.6, 0.0, 0.8) * 0.7 - from).normalize();
+            let error = at.abs() * 8.0 * f32::EPSILON;
+            let ctx = LightSampleContext::surface(at + from, n, n).with_error(error);
+            let origin = ctx.p + n * n.abs().dot(error);
+            let frame = Frame::from_z(n);
+            let [mut by_light, mut by_both] = [0.0, 0.0];
+            for i in 0..STEPS {
+                for j in 0..STEPS {
+                    let u = (Vec2::new(f32::from(i), f32::from(j)) + 0.5) / f32::from(STEPS);
+                    if let Some(sample) = shape.sample_toward(&ctx, u) {
+                        let cos = sample.wi.dot(n).max(0.0);
+                        let weight = mis::power(sample.pdf, cosine_hemisphere::pdf(cos));
+                        by_light += f64::from(cos / sample.pdf);
+                        by_both += f64::from(weight * cos / sample.pdf);
+                    }
+                    let local = cosine_hemisphere::sample(u);
+                    let wi = frame.from_local(local);
+                    if shape.hit(origin, wi).is_some() {
+                        let pdf = cosine_hemisphere::pdf(local.z);
+                        let weight = mis::power(pdf, shape.pdf_toward(&ctx, wi));
+                        by_both += f64::from(weight * local.z / pdf);
+                    }
+                }
+            }
+            let error = by_both / by_light - 1.0;
+            assert!(error.abs() < 3e-3, "{name} from {from}: {error}");
+        }
+    }
 }
