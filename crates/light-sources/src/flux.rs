@@ -17,7 +17,9 @@ impl Flux {
     /// The integrals of a spectral quantity per nm.
     #[must_use]
     pub fn of_spectrum(spectrum: &impl Spectrum) -> Self {
-        let SpectrumIntegrals { luminous, radiant } = spectrum.integrals();
+        let SpectrumIntegrals {
+            luminous, radiant, ..
+        } = spectrum.integrals();
         Self { luminous, radiant }
     }
 }

@@ -20,14 +20,11 @@ pub fn matching(lambda: f32) -> Vec3 {
     nearest_nanometre(lambda).map_or(Vec3::ZERO, |i| OBSERVER[i])
 }
 
-/// XYZ of an emission spectrum, so that the constant spectrum 1 has `Y` = 1.
+/// XYZ of an emission spectrum, so that the constant spectrum 1 has `Y` = 1: by its
+/// [`integrals`](Spectrum::integrals), so that narrow lines count in full.
 #[must_use]
 pub fn xyz(spectrum: &impl Spectrum) -> Vec3 {
-    let mut sum = Vec3::ZERO;
-    for (i, observer) in OBSERVER.iter().enumerate() {
-        sum += *observer * spectrum.eval(LAMBDA_MIN + i as f32);
-    }
-    sum / Y_INTEGRAL
+    spectrum.integrals().xyz / Y_INTEGRAL
 }
 
 /// The estimate of XYZ from the values at sampled wavelengths, in the scale of [`xyz`].
@@ -73,7 +70,7 @@ pub(super) fn nearest_nanometre(lambda: f32) -> Option<usize> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::spectrum::Constant;
+    use crate::spectrum::{Constant, PiecewiseLinear};
 
     /// Sums of the standard's own 1 nm table.
     #[test]
@@ -101,6 +98,19 @@ mod tests {
         let white = xyz(&Constant(1.0));
         assert!(white.distance(Vec3::ONE) < 5e-4, "{white}");
         assert!((white.y - 1.0).abs() < 1e-5, "{white}");
+    }
+
+    /// Triangles between two whole nanometres, across one, and across many.
+    #[test]
+    fn lines_count_by_their_width() {
+        for (middle, half) in [(435.75, 0.125), (546.0, 0.125), (578.5, 0.25), (600.0, 8.0)] {
+            let lambdas = [middle - half, middle, middle + half];
+            let line = PiecewiseLinear::new(lambdas, [0.0, 3.0, 0.0]).expect("valid");
+            let [below, above] = [middle.floor(), middle.floor() + 1.0].map(matching);
+            let expected = 3.0 * half / Y_INTEGRAL * below.lerp(above, middle.fract());
+            let error = xyz(&line).distance(expected) / expected.length();
+            assert!(error < 1e-2, "{middle}: {} for {expected}", xyz(&line));
+        }
     }
 
     #[test]

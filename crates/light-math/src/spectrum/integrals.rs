@@ -1,3 +1,5 @@
+use glam::Vec3;
+
 use super::observer::{OBSERVER, SAMPLES};
 use super::visible_range::LAMBDA_MIN;
 
@@ -11,6 +13,8 @@ pub struct SpectrumIntegrals {
     pub luminous: f32,
     /// In radiometric units: W/nm to W, and so on.
     pub radiant: f32,
+    /// With each of the [colour matching functions](super::cie::matching).
+    pub xyz: Vec3,
 }
 
 impl SpectrumIntegrals {
@@ -18,8 +22,11 @@ impl SpectrumIntegrals {
     pub(super) fn of_nanometres(eval: impl Fn(f32) -> f32) -> Self {
         let mut sum = Self::default();
         for (i, observer) in OBSERVER.iter().enumerate() {
+            let full = eval(LAMBDA_MIN + i as f32);
+            // The sum of all rows, by which the constant spectrum 1 is exact in any scale.
+            sum.xyz += *observer * full;
             let width = if i == 0 || i == SAMPLES - 1 { 0.5 } else { 1.0 };
-            let value = width * eval(LAMBDA_MIN + i as f32);
+            let value = width * full;
             sum.luminous += value * observer.y;
             sum.radiant += value;
         }
@@ -29,17 +36,18 @@ impl SpectrumIntegrals {
 
     /// Adds the part from `lambda[0]` to `lambda[1]`, which lie in the range and have no whole
     /// nanometre between them, of a spectrum that is straight there, with a value at either end.
-    /// The luminous efficiency is straight between whole nanometres, so that nothing is missed.
+    /// The matching functions are straight between whole nanometres, so that nothing is missed.
     pub(super) fn add_straight(&mut self, lambda: [f32; 2], value: [f32; 2]) {
         let step = lambda[1] - lambda[0];
         let i = whole_nanometre(lambda[0]);
-        let [below, above] = [OBSERVER[i].y, OBSERVER[i + 1].y];
+        let [below, above] = [OBSERVER[i], OBSERVER[i + 1]];
         let [a, b] = lambda.map(|lambda| {
             let t = lambda - LAMBDA_MIN - i as f32;
-            (1.0 - t) * below + t * above
+            below * (1.0 - t) + above * t
         });
-        let product = value[0] * (2.0 * a + b) + value[1] * (a + 2.0 * b);
-        self.luminous += K_M / 6.0 * step * product;
+        let product = (2.0 * a + b) * value[0] + (a + 2.0 * b) * value[1];
+        self.xyz += product * (step / 6.0);
+        self.luminous += K_M / 6.0 * step * product.y;
         self.radiant += 0.5 * step * (value[0] + value[1]);
     }
 }

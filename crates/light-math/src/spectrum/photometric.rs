@@ -93,7 +93,9 @@ pub fn radiant(spectrum: &impl Spectrum) -> f32 {
 /// Only power between 360 and 830 nm counts.
 #[must_use]
 pub fn efficacy(spectrum: &impl Spectrum) -> f32 {
-    let SpectrumIntegrals { luminous, radiant } = spectrum.integrals();
+    let SpectrumIntegrals {
+        luminous, radiant, ..
+    } = spectrum.integrals();
     if radiant > 0.0 {
         luminous / radiant
     } else {

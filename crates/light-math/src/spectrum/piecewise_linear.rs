@@ -164,6 +164,7 @@ mod tests {
             let SpectrumIntegrals {
                 luminous: l,
                 radiant,
+                ..
             } = line.integrals();
             // The ends are whole steps of 6e-5 nm.
             let given = 0.5 * (lambdas[2] - lambdas[0]);

@@ -13,7 +13,20 @@ pub(super) fn reflectance(pairs: &[f32]) -> Option<Vec3> {
 
 /// The colour of this spectrum seen by daylight, without a bound above.
 pub(super) fn unbounded(pairs: &[f32]) -> Option<Vec3> {
-    by_daylight(piecewise(pairs)?)
+    let (reflectance, light) = (piecewise(pairs)?, RgbColorSpace::srgb().illuminant());
+    // Straight between its own wavelengths and whole nanometres, so that narrow features count.
+    let own = reflectance.lambdas();
+    let ends = *own.first()?..=*own.last()?;
+    let whole = (0u16..)
+        .map(|i| cie::LAMBDA_MIN + f32::from(i))
+        .take_while(|lambda| *lambda <= cie::LAMBDA_MAX)
+        .filter(|lambda| ends.contains(lambda));
+    let mut lambdas: Vec<f32> = own.iter().copied().chain(whole).collect();
+    lambdas.sort_unstable_by(f32::total_cmp);
+    lambdas.dedup();
+    let value = |&lambda: &f32| reflectance.eval(lambda) * light.eval(lambda);
+    let values = lambdas.iter().map(value).collect();
+    color_of_lit(&PiecewiseLinear::new(lambdas, values).ok()?)
 }
 
 /// The colour, seen by daylight, of a surface that reflects as a black body of this temperature in
@@ -27,8 +40,14 @@ fn by_daylight(reflectance: impl Spectrum) -> Option<Vec3> {
         reflectance,
         light: RgbColorSpace::srgb().illuminant(),
     };
-    let white = cie::xyz(&lit.light).y;
-    let rgb = RgbColorSpace::srgb().rgb_from_xyz() * cie::xyz(&lit) / white;
+    color_of_lit(&lit)
+}
+
+/// The colour of a surface from the spectrum that it reflects by daylight.
+fn color_of_lit(lit: &impl Spectrum) -> Option<Vec3> {
+    let space = RgbColorSpace::srgb();
+    let white = cie::xyz(&space.illuminant()).y;
+    let rgb = space.rgb_from_xyz() * cie::xyz(lit) / white;
     rgb.is_finite().then(|| rgb.max(Vec3::ZERO))
 }
 
@@ -121,6 +140,14 @@ mod tests {
         let white = blackbody_share(6500.0).expect("a temperature");
         assert!(white.min_element() > 0.7, "{white}");
         assert_eq!(reflectance(&[1.0]), None, "no pair");
+        // Half a nanometre that is lost in between whole ones, and a whole one.
+        let hole = [300.0, 0.5, 599.25, 0.5, 599.5, 0.0, 599.75, 0.5, 900.0, 0.5];
+        let holed = unbounded(&hole).expect("a spectrum");
+        assert!(holed.x < grey.x - 1e-4, "{holed} and {grey}");
+        // A line of .2 nm has the colour of one of its wavelength, wherever whole nanometres are.
+        let line = |middle: f32| emission(&[middle - 0.1, 0.0, middle, 1.0, middle + 0.1, 0.0]);
+        let [on, off] = [546.0, 546.3].map(|middle| line(middle).expect("a spectrum"));
+        assert!(on.abs_diff_eq(off, 0.02), "{on} and {off}");
         let black = emission(&[400.0, 0.0, 700.0, 0.0]);
         assert_eq!(black, Some(Vec3::ZERO), "no light, not white");
     }
