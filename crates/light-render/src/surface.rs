@@ -1,5 +1,6 @@
 use lights::bounds::LightSampleContext;
 use lights::glam::{Vec2, Vec3};
+use lights::math::direction;
 use lights::sources::SurfacePoint;
 
 use crate::{PrimitiveId, QuadricShape, Ray};
@@ -28,6 +29,17 @@ pub struct Surface {
 /// A generous multiple of the rounding error of a sum of two or three products.
 const ERROR: f32 = 8.0 * f32::EPSILON;
 
+/// The unit vector along a normal that is as long as an area, whose square may be more or less than
+/// a float holds; 0 without a direction.
+#[inline]
+fn unit_normal(normal: Vec3) -> Vec3 {
+    if (f32::MIN_POSITIVE..=f32::MAX).contains(&normal.length_squared()) {
+        normal.normalize()
+    } else {
+        direction(normal).unwrap_or(Vec3::ZERO)
+    }
+}
+
 impl Surface {
     /// The point with the given weights of the second and third of `corners`; flat, without texture
     /// coordinates.
@@ -48,7 +60,7 @@ impl Surface {
             barycentric.y,
         ];
         let [pa, pb, pc] = [a * weights[0], b * weights[1], c * weights[2]];
-        let n = (b - a).cross(c - a).normalize_or_zero();
+        let n = unit_normal((b - a).cross(c - a));
         Self {
             p: pa + pb + pc,
             p_error: (pa.abs() + pb.abs() + pc.abs()) * ERROR,

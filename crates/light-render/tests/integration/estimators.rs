@@ -9,7 +9,8 @@ use light_scene::glam::Vec3;
 use light_scene::{Camera, Diagnostic, Emission, Files, Material, Mesh, Scene, parse_scene};
 
 use crate::support::{
-    Shot, agree, assert_estimators_agree, assert_threads_change_nothing, cornell, lamps,
+    Shot, agree, assert_estimators_agree, assert_threads_change_nothing, cornell, lamps, plane,
+    room,
 };
 
 #[test]
@@ -167,4 +168,28 @@ fn a_lamp_that_a_file_lists_twice_is_one() {
     assert_estimators_agree(&twice);
     let shot = Shot::of_direct_light(Estimator::Light);
     assert_eq!(shot.mean(&twice), shot.mean(&once), "one lamp");
+}
+
+/// The square of twice the area of a triangle of 5e9 units is more than a float holds, and that of
+/// 1e-10 units less.
+#[test]
+fn the_unit_of_length_does_not_matter() {
+    let mean = |scale: f32| {
+        let mut scene = plane(0.5, 25.0 * scale);
+        let lamp = scene.add_material(Material {
+            emission: Some(Emission::one_sided(Vec3::ONE)),
+            ..Material::diffuse("lamp", Vec3::ZERO)
+        });
+        let corners = room()[1].map(|p| (p * 2.0 + Vec3::new(-1.0, 1.0, -1.0)) * scale);
+        scene.meshes.push(Mesh::quad("lamp", lamp, corners));
+        let (eye, target) = (Vec3::new(0.0, 1.0, 4.0), Vec3::new(0.0, 0.0, 1.0));
+        scene.camera = Camera::look_at(eye * scale, target * scale, Vec3::Y, 0.1).ok();
+        Shot::of_direct_light(Estimator::Mis).mean(&scene)
+    };
+    let one = mean(1.0);
+    assert!(one.0.min_element() > 0.05, "light arrives: {one:?}");
+    for scale in [1e8, 2e8, 1e-10] {
+        let scaled = mean(scale);
+        assert!(agree(scaled, one), "{scale}: {scaled:?}, {one:?}");
+    }
 }
