@@ -93,4 +93,12 @@ pub(crate) fn stdout(args: &[&str]) -> String {
     String::from_utf8(output.stdout).expect("text")
 }
 
+/// What the program says on standard error of a picture that it makes, a [`SMALL`] one.
+pub(crate) fn words(args: &[&str]) -> String {
+    let output = lights(&[args, &SMALL[..]].concat());
+    let error = String::from_utf8(output.stderr).expect("text");
+    assert_eq!(output.status.code(), Some(0), "{args:?}: {error}");
+    error
+}
+
 pub(crate) const SMALL: [&str; 4] = ["--width", "12", "--spp", "4"];

@@ -24,7 +24,13 @@ mod refusals;
 mod refused_lights;
 mod report;
 mod samplers;
+mod shown;
+#[cfg(unix)]
+mod stopped;
+mod tev_stand_in;
 mod visibility;
+#[cfg(unix)]
+mod watch_flag;
 mod watched;
 
 use std::fs;

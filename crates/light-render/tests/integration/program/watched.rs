@@ -15,7 +15,7 @@ pub(crate) struct Ending {
 }
 
 /// Longer than any test here takes on a busy machine.
-const PATIENCE: Duration = Duration::from_secs(120);
+pub(crate) const PATIENCE: Duration = Duration::from_secs(120);
 
 /// Runs the program in `folder`, and waits for its end.
 pub(crate) fn watch(folder: &Path, arguments: &[&str]) -> Ending {
