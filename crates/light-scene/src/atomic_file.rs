@@ -22,19 +22,32 @@ pub fn write_atomically(path: &Path, bytes: &[u8]) -> Result<(), Diagnostic> {
 }
 
 /// Ends the process with `status`, and removes unfinished files: for a program that is asked to
-/// stop. Every file is whole then, or not there.
-pub fn exit_without_outputs(status: i32) -> ! {
+/// stop. Every file is whole then, or not there. Before, `say` gets the files that this process has
+/// written and that are there, each once, as their writers called them.
+pub fn exit_without_outputs(status: i32, say: impl FnOnce(&[PathBuf])) -> ! {
     // Nobody begins or ends a file from here on.
-    let all = staged_files();
-    for temporary in all.iter() {
+    let mut all = output_files();
+    for temporary in &all.staged {
         drop(fs::remove_file(temporary));
     }
+    all.published.retain(|path| path.exists());
+    say(&all.published);
     std::process::exit(status)
 }
 
-/// The temporary files that are not yet renamed.
-fn staged_files() -> MutexGuard<'static, Vec<PathBuf>> {
-    static ALL: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
+/// The files that this process writes.
+struct OutputFiles {
+    /// The temporary files that are not yet renamed.
+    staged: Vec<PathBuf>,
+    /// Those that were written, each once.
+    published: Vec<PathBuf>,
+}
+
+fn output_files() -> MutexGuard<'static, OutputFiles> {
+    static ALL: Mutex<OutputFiles> = Mutex::new(OutputFiles {
+        staged: Vec::new(),
+        published: Vec::new(),
+    });
     ALL.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -44,6 +57,8 @@ fn staged_files() -> MutexGuard<'static, Vec<PathBuf>> {
 pub(crate) struct StagedFile {
     /// Where it is and where it belongs; `None` when nothing is left to do.
     paths: Option<(PathBuf, PathBuf)>,
+    /// What its writer calls it.
+    name: PathBuf,
 }
 
 impl StagedFile {
@@ -60,7 +75,10 @@ impl StagedFile {
         }
         if kind.as_ref().is_ok_and(|kind| !kind.is_file()) {
             write(&mut File::options().write(true).open(path)?)?;
-            return Ok(Self { paths: None });
+            return Ok(Self {
+                paths: None,
+                name: path.to_path_buf(),
+            });
         }
         let target = match kind {
             Ok(_) => fs::canonicalize(path)?,
@@ -68,15 +86,16 @@ impl StagedFile {
         };
         let temporary =
             temporary_path(&target).ok_or_else(|| io::Error::other("expected a file's name"))?;
-        let mut all = staged_files();
+        let mut all = output_files();
         let mut file = File::options()
             .write(true)
             .create_new(true)
             .open(&temporary)?;
-        all.push(temporary.clone());
+        all.staged.push(temporary.clone());
         drop(all);
         let staged = Self {
             paths: Some((temporary, target)),
+            name: path.to_path_buf(),
         };
         write(&mut file)?;
         // A full disk may show here for the first time.
@@ -87,9 +106,12 @@ impl StagedFile {
     /// Renames the file to its target.
     pub(crate) fn publish(mut self) -> io::Result<()> {
         if let Some((temporary, target)) = &self.paths {
-            let mut all = staged_files();
+            let mut all = output_files();
             fs::rename(temporary, target)?;
-            all.retain(|other| other != temporary);
+            all.staged.retain(|other| other != temporary);
+            if !all.published.contains(&self.name) {
+                all.published.push(self.name.clone());
+            }
         }
         self.paths = None;
         Ok(())
@@ -99,10 +121,10 @@ impl StagedFile {
 impl Drop for StagedFile {
     fn drop(&mut self) {
         if let Some((temporary, _)) = &self.paths {
-            let mut all = staged_files();
+            let mut all = output_files();
             // What stops the removal stopped the writing, and that is what is reported.
             drop(fs::remove_file(temporary));
-            all.retain(|other| other != temporary);
+            all.staged.retain(|other| other != temporary);
         }
     }
 }

@@ -70,7 +70,7 @@ Exit status:
   0    done
   1    a check that was asked for failed (--max-relmse, --max-bias)
   2    bad usage or bad input: one line on standard error
-  130  interrupted; files are whole or not there
+  130  interrupted: one line says what was written; files are whole or not there
 
 Environment lights, exposures and more: lights render --help";
 

@@ -44,6 +44,57 @@ pub(crate) fn wait_until(what: &str, is_so: impl Fn() -> bool) {
     }
 }
 
+/// Waits until the program answers Ctrl-C itself.
+#[cfg(target_os = "linux")]
+fn wait_until_it_listens(child: &Child) {
+    let status = format!("/proc/{}/status", child.id());
+    let catches = || {
+        let status = fs::read_to_string(&status).ok()?;
+        let caught = status.lines().find_map(|l| l.strip_prefix("SigCgt:"))?;
+        let caught = u64::from_str_radix(caught.trim(), 16).ok()?;
+        Some(caught & 1 << 1 != 0)
+    };
+    wait_until("a handler", || catches() == Some(true));
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn what_cannot_go_on_ends_with_a_line() {
+    let folder = Folder::new("stopped-at-once");
+    let (scene, out, page) = (
+        folder.scene(LIT),
+        folder.path("out.exr"),
+        folder.path("a.html"),
+    );
+    let set = folder.path("set");
+    let before = folder.names();
+    let samples = ["render", &scene, "-o", &out, "--samples", "0..4000000"];
+    let layers = [
+        "render", &scene, "-o", &out, "--aov", "groups", "--spp", "4000000",
+    ];
+    let report = ["report", &scene, "-o", &page, "--time", "500"];
+    for args in [&samples[..], &layers, &report] {
+        let child = start(args);
+        wait_until_it_listens(&child);
+        let (status, error) = interrupt(child);
+        assert_eq!(status, Some(130), "{args:?}: {error}");
+        let last = error.lines().last();
+        let words = "lights: interrupted: nothing was written";
+        assert_eq!(last, Some(words), "{args:?}: {error}");
+        assert_eq!(folder.names(), before, "{args:?}");
+    }
+    let of_set = ["bench", "--generate", "uniform", "--n", "1000"];
+    let bench = ["--samplers", "exhaustive", "--write", &set];
+    let long = ["--var-points", "1000000"];
+    let child = start(&[&of_set[..], &bench, &long].concat());
+    let points = format!("{set}.points");
+    wait_until("a set", || Path::new(&points).exists());
+    let (status, error) = interrupt(child);
+    assert_eq!(status, Some(130), "{error}");
+    let words = format!("interrupted; written before: {set}.lights, {points}");
+    assert!(error.contains(&words), "{error}");
+}
+
 #[test]
 fn a_stopped_rendering_is_kept_and_goes_on() {
     let folder = Folder::new("stopped");
