@@ -211,14 +211,19 @@ impl Scene {
         image: &Image,
         transform: Affine3A,
     ) -> Result<(), sources::ImageError> {
-        let map = EnvironmentMap::LatLong(image.to_light()?);
+        self.add_environment(EnvironmentMap::LatLong(image.to_light()?), transform);
+        Ok(())
+    }
+
+    /// Puts a map around the scene, turned by the rotation in `transform`: a lat-long one as
+    /// [`add_sky`](Self::add_sky) does, an equal-area one by the same directions.
+    pub fn add_environment(&mut self, map: EnvironmentMap, transform: Affine3A) {
         let sky = ImageInfiniteLightDesc {
             transform,
             map,
             amount: RadianceAmount::default(),
         };
         self.lights.push(LightDesc::ImageInfinite(sky));
-        Ok(())
     }
 
     /// Adds an image and returns its id.

@@ -3,17 +3,15 @@ use std::path::{Path, PathBuf};
 
 use crate::World;
 use clap::Args;
-use light_scene::{
-    BuiltinScene, Diagnostic, Emission, Image, Scene, is_scene_name, read_environment,
-    recorded_read_files,
-};
+use light_scene::{BuiltinScene, Diagnostic, Emission, Scene, is_scene_name, recorded_read_files};
 use lights::glam::{Affine3A, Quat, Vec3};
 
 use super::arguments::{Emit, finite};
+use super::environment::read_sky;
 use super::failure::Failure;
 use super::light_args::{LightArgs, up};
 use super::output_file::{expect_another, refuse};
-use super::stdout::complain;
+use super::stdout::{complain, report_warnings};
 
 /// Which scene, and what is changed in it.
 #[derive(Args, Debug)]
@@ -28,7 +26,7 @@ pub(crate) struct SceneInput {
 /// What is changed in a scene, for commands with an argument `scene`.
 #[derive(Args, Clone, Debug)]
 pub(crate) struct SceneChanges {
-    /// A lat-long environment around the scene: .exr, .hdr or .png.
+    /// An environment around the scene: .exr, .hdr or .png; 2:1 is lat-long, a square is equal-area.
     #[arg(long, value_name = "IMAGE", requires = "scene")]
     pub(crate) env: Option<PathBuf>,
     /// Turn the environment so far about the upward axis, counter-clockwise as seen from above.
@@ -61,13 +59,12 @@ impl SceneInput {
         } = &self.changes;
         let mut scene = read_scene(&self.scene)?;
         if let Some(path) = env {
-            let file = read_environment(path).map_err(Failure::input)?;
-            scene.warnings.extend(file.warning);
-            scene.warnings.extend(doubt_of_shape(path, &file.image));
+            let (map, warnings) = read_sky(path)?;
+            scene.warnings.extend(warnings);
             let up = up(&self.scene, &scene);
             let turn = Quat::from_axis_angle(up, env_rotate.unwrap_or(0.0).to_radians());
             let turned = Affine3A::from_quat(turn * Quat::from_rotation_arc(Vec3::Y, up));
-            scene.add_sky(&file.image, turned).map_err(Failure::input)?;
+            scene.add_environment(map, turned);
         }
         for Emit { material, radiance } in emit {
             let mut named = scene
@@ -175,28 +172,9 @@ fn read_scene(path: &Path) -> Result<Scene, Failure> {
     })
 }
 
-/// What is said of an environment that is taken as lat-long and hardly is one.
-fn doubt_of_shape(path: &Path, image: &Image) -> Option<Diagnostic> {
-    let (width, height) = (image.width(), image.height());
-    (width != 2 * height).then(|| {
-        let message = format!(
-            "expected 2:1, a lat-long map, found {width} x {height}; it is taken as lat-long \
-             (`lights env convert` makes one of an equal-area map)"
-        );
-        Diagnostic::file(path, message)
-    })
-}
-
 /// The first scene file in a folder, by name.
 fn scene_in(folder: &Path) -> Option<PathBuf> {
     let entries = fs::read_dir(folder).ok()?.flatten();
     let files = entries.map(|entry| entry.path());
     files.filter(|path| is_scene_name(path)).min()
-}
-
-/// Prints to standard error what the readers repaired or left out.
-pub(crate) fn report_warnings(warnings: &[Diagnostic]) {
-    for warning in warnings {
-        complain(format_args!("warning: {warning}"));
-    }
 }

@@ -1,6 +1,8 @@
 use core::fmt;
 use std::io::{self, ErrorKind, Write};
 
+use light_scene::Diagnostic;
+
 use super::failure::Failure;
 
 /// Prints a line of results to standard output; formatted as by `println!`, which panics where this
@@ -41,6 +43,13 @@ pub(crate) fn flush() -> Result<(), Failure> {
 /// Prints a line to standard error, if that takes it: there is no other place to complain to.
 pub(crate) fn complain(words: fmt::Arguments<'_>) {
     drop(writeln!(io::stderr(), "lights: {words}"));
+}
+
+/// Prints to standard error what the readers repaired or left out.
+pub(crate) fn report_warnings(warnings: &[Diagnostic]) {
+    for warning in warnings {
+        complain(format_args!("warning: {warning}"));
+    }
 }
 
 fn checked(written: io::Result<()>) -> Result<(), Failure> {

@@ -79,22 +79,49 @@ fn environments_are_turned_about_what_is_up() {
     assert_refused(&alone, &["--env <IMAGE>"]);
 }
 
-/// `--env` is lat-long whatever its shape; of another than 2:1 a line says so.
+/// A map is the same sky in either form, as `env convert` makes one of the other.
 #[test]
-fn environments_that_are_not_two_to_one_are_doubted() {
-    let folder = Folder::new("doubted-shape");
+fn a_square_environment_is_equal_area() {
+    let folder = Folder::new("square-sky");
     let scene = folder.file("a.pbrt", "Camera \"perspective\" WorldBegin");
     let [map, square, out] = ["map.exr", "square.exr", "out.exr"].map(|name| folder.path(name));
+    // Another colour for each octant, and twice as many texels as the picture needs.
+    let texel = |x: u32, y: u32| Vec3::new(1.0 + (x / 64) as f32, 1.0 + (y / 64) as f32, 1.0);
+    let texels = (0..128).flat_map(|y| (0..256).map(move |x| texel(x, y)));
+    let image = Image::new(256, 128, texels.collect()).expect("a map");
+    write_image(Path::new(&map), &image).expect("written");
+    stdout(&["env", "convert", &map, &square]);
+    for toward in ["1,1,1", "-1,1,1", "-1,-1,1", "1,-1,1", "1,1,-1", "-1,-1,-1"] {
+        let look_at = format!("0,0,0,{toward},0,1,0");
+        let color = |env: &str| {
+            let args = ["render", &scene, "-o", &out, "--env", env, "--fov", "20"];
+            let turned = ["--look-at", &look_at, "--env-rotate", "10"];
+            let done = lights(&[&args[..], &turned, &SMALL].concat());
+            assert!(done.status.success() && done.stderr.is_empty(), "{env}");
+            read_image(Path::new(&out)).expect("a picture").image.mean()
+        };
+        let off = color(&square).distance(color(&map));
+        assert!(off < 0.01, "{toward}: {off}");
+    }
+}
+
+/// An environment of another shape is lat-long; a line says so.
+#[test]
+fn environments_of_another_shape_are_doubted() {
+    let folder = Folder::new("doubted-shape");
+    let scene = folder.file("a.pbrt", "Camera \"perspective\" WorldBegin");
+    let [map, wide, out] = ["map.exr", "wide.exr", "out.exr"].map(|name| folder.path(name));
     write_map(&map, 64, 32);
-    write_map(&square, 32, 32);
+    write_map(&wide, 48, 32);
     let doubt = |env: &str| {
         let args = ["render", &scene, "-o", &out, "--env", env];
         let done = lights(&[&args[..], &SMALL].concat());
         assert!(done.status.success(), "{env}");
-        String::from_utf8_lossy(&done.stderr).contains("2:1, a lat-long map, found 32 x 32")
+        let said = String::from_utf8_lossy(&done.stderr).into_owned();
+        said.contains("a square (equal-area), found 48 x 32; it is taken as lat-long")
     };
     assert!(!doubt(&map), "lat-long");
-    assert!(doubt(&square), "a square");
+    assert!(doubt(&wide), "neither");
 }
 
 #[test]
