@@ -154,9 +154,8 @@ mod tests {
     use super::*;
     use crate::channels::Channels;
     use crate::image_infinite::ImageInfiniteLight;
-    use crate::portal_infinite::{
-        PortalInfiniteLight, PortalInfiniteLightDesc, PortalInfiniteLightError,
-    };
+    use crate::portal_infinite::PortalInfiniteLight;
+    use crate::portal_infinite_desc::{PortalInfiniteLightDesc, PortalInfiniteLightError};
     use crate::rgb::Rgb;
     use crate::scene_sphere::SceneSphere;
 

@@ -129,6 +129,8 @@ mod portal;
 #[cfg(feature = "alloc")]
 mod portal_infinite;
 #[cfg(feature = "alloc")]
+mod portal_infinite_desc;
+#[cfg(feature = "alloc")]
 mod projection;
 #[cfg(feature = "alloc")]
 mod radiant_powers;
@@ -237,7 +239,9 @@ pub use placed_mesh::{MeshPrototypeId, PlacedMeshCounts, PlacedMeshError};
 pub use point::{PointLight, PointLightDesc, PointLightError};
 pub use point_source::{DirectionSample, PointSource};
 #[cfg(feature = "alloc")]
-pub use portal_infinite::{PortalInfiniteLight, PortalInfiniteLightDesc, PortalInfiniteLightError};
+pub use portal_infinite::PortalInfiniteLight;
+#[cfg(feature = "alloc")]
+pub use portal_infinite_desc::{PortalInfiniteLightDesc, PortalInfiniteLightError};
 #[cfg(feature = "alloc")]
 pub use projection::{ProjectionLight, ProjectionLightDesc, ProjectionLightError};
 #[cfg(feature = "alloc")]

@@ -9,7 +9,7 @@ use crate::image_infinite_desc::{ImageInfiniteLightDesc, ImageInfiniteLightError
 use crate::mesh::{MeshLightDesc, MeshLightError};
 use crate::own_light::{OwnLight, OwnLightError};
 use crate::point::{PointLightDesc, PointLightError};
-use crate::portal_infinite::{PortalInfiniteLightDesc, PortalInfiniteLightError};
+use crate::portal_infinite_desc::{PortalInfiniteLightDesc, PortalInfiniteLightError};
 use crate::projection::{ProjectionLightDesc, ProjectionLightError};
 use crate::scaled_emission::EmissionError;
 use crate::spot_desc::{SpotLightDesc, SpotLightError};

@@ -9,7 +9,7 @@ use crate::light_desc::LightDesc;
 use crate::mesh::MeshLightDesc;
 use crate::own_light::OwnLight;
 use crate::point::PointLightDesc;
-use crate::portal_infinite::PortalInfiniteLightDesc;
+use crate::portal_infinite_desc::PortalInfiniteLightDesc;
 use crate::projection::ProjectionLightDesc;
 use crate::spot_desc::SpotLightDesc;
 use crate::sun_desc::SunLightDesc;

@@ -128,7 +128,7 @@ mod tests {
     use crate::light_desc::LightDesc;
     use crate::light_set_builder::LightSetBuilder;
     use crate::mesh::MeshLightDesc;
-    use crate::portal_infinite::PortalInfiniteLightDesc;
+    use crate::portal_infinite_desc::PortalInfiniteLightDesc;
     use crate::rgb::Rgb;
     use crate::scene_sphere::SceneSphere;
     use crate::shape::ShapeDesc;

@@ -1,56 +1,24 @@
 use alloc::vec::Vec;
-use core::error::Error;
-use core::fmt;
 use core::marker::PhantomData;
 
-use crate::amount::RadianceAmount;
 use crate::channels::Channels;
 use crate::color::{ColorModel, Radiance};
-use crate::glam::{Affine3A, Vec2, Vec3};
+use crate::glam::{Vec2, Vec3};
 use crate::image::Image;
-use crate::image_infinite_desc::{EnvironmentMap, ImageInfiniteLightError};
+use crate::image_infinite_desc::ImageInfiniteLightError;
 use crate::light::{InfiniteLight, Light};
 use crate::light_power::LightPower;
 use crate::light_sample::{EmittedRay, LePdf, LightLeSample, LightLiSample};
 use crate::light_type::LightType;
 use crate::pdf_coverage::PdfCoverage;
 use crate::portal::Portal;
+use crate::portal_infinite_desc::{PortalInfiniteLightDesc, PortalInfiniteLightError};
 use crate::rgb_sum::RgbSum;
 use crate::rigid_transform::RigidTransform;
 use crate::scene_sphere::SceneSphere;
 use light_bounds::{InfiniteBounds, LightExtent, LightSampleContext};
 use light_math::distribution::{Sample2D, SummedAreaTable, Window, WindowedPiecewiseConstant2D};
 use light_math::{DirectionCone, SphereImage, SphereMap};
-
-/// A [`PortalInfiniteLight`] as a user describes it.
-#[derive(Clone, Debug)]
-#[cfg_attr(feature = "serde", derive(serde::Serialize))]
-pub struct PortalInfiniteLightDesc {
-    /// From light space to the scene; only its rotation counts.
-    pub transform: Affine3A,
-    /// The picture of the sky.
-    pub map: EnvironmentMap,
-    /// Amount of light, as a factor of the picture.
-    pub amount: RadianceAmount,
-    /// Corners of the portal in the scene, one after the other; light comes from where they run
-    /// clockwise.
-    pub portal: [Vec3; 4],
-}
-
-impl PortalInfiniteLightDesc {
-    /// The sky of `map` in light space, as [`ImageInfiniteLightDesc`](crate::ImageInfiniteLightDesc)
-    /// has it, through the rectangle of these corners in the scene, one after the other; light comes
-    /// from where they run clockwise.
-    #[must_use]
-    pub fn new(map: EnvironmentMap, portal: [Vec3; 4]) -> Self {
-        Self {
-            transform: Affine3A::IDENTITY,
-            map,
-            amount: RadianceAmount::default(),
-            portal,
-        }
-    }
-}
 
 /// An environment map that is visible through one rectangle only, such as a window.
 ///
@@ -59,7 +27,7 @@ impl PortalInfiniteLightDesc {
 /// [`ImageInfiniteLight`](crate::ImageInfiniteLight), which samples the texels of its picture as
 /// they are, this light has the texels of its [own map](Self::rectified): a sun of one texel is
 /// spread over its neighbours there. A lat-long picture becomes an
-/// [equal-area one](EnvironmentMap::into_equal_area) first.
+/// [equal-area one](crate::EnvironmentMap::into_equal_area) first.
 ///
 /// # Source
 /// `[Bitterli2015]`; `[PBRT4]`, section 12.5.3. Rays that leave the light start on the portal, not
@@ -76,16 +44,6 @@ pub struct PortalInfiniteLight<C> {
     /// `None` when the picture is black.
     table: Option<WindowedPiecewiseConstant2D<Vec<u64>>>,
     color: PhantomData<C>,
-}
-
-/// Why the description of a portal light is invalid; each variant names a field.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-#[non_exhaustive]
-pub enum PortalInfiniteLightError {
-    /// `transform`, `map` or `amount` is invalid.
-    Sky(ImageInfiniteLightError),
-    /// `portal` is not a planar rectangle with an area.
-    Portal,
 }
 
 /// No rays are emitted at cosines to the portal's normal below this: their density has no digits
@@ -294,22 +252,5 @@ impl<C: ColorModel> InfiniteLight<C> for PortalInfiniteLight<C> {
         let inside = uv.zip(self.portal.window(origin));
         let inside = inside.and_then(|(uv, window)| nearest_inside(uv, &window));
         inside.map_or(C::Radiance::BLACK, |uv| self.radiance(uv, wavelengths))
-    }
-}
-
-impl fmt::Display for PortalInfiniteLightError {
-    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        match self {
-            Self::Sky(error) => error.fmt(f),
-            Self::Portal => f.write_str("portal: must be a planar rectangle with an area"),
-        }
-    }
-}
-
-impl Error for PortalInfiniteLightError {}
-
-impl From<ImageInfiniteLightError> for PortalInfiniteLightError {
-    fn from(error: ImageInfiniteLightError) -> Self {
-        Self::Sky(error)
     }
 }

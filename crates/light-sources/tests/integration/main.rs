@@ -7,6 +7,8 @@
 extern crate alloc;
 
 #[cfg(feature = "std")]
+mod black_pictures;
+#[cfg(feature = "std")]
 mod brute_force;
 mod conversions;
 #[cfg(feature = "std")]
