@@ -122,4 +122,6 @@ fn of_face(path: &Path, text: &str, face: &BadFace) -> Diagnostic {
 }
 
 #[cfg(test)]
+mod refusals_tests;
+#[cfg(test)]
 mod tests;
