@@ -7,6 +7,7 @@ use lights::glam::{Affine3A, DVec3};
 use lights::sources::shape::Shape;
 use lights::sources::{Light, LightRef, LightSet, MeshPrototypeId, Rgb};
 
+use crate::shape_counts::ShapeCounts;
 use crate::source_ids::source_ids;
 
 /// All lights of one kind.
@@ -16,6 +17,8 @@ pub struct LightInventory {
     pub kind: &'static str,
     /// How many there are.
     pub count: usize,
+    /// Of area lights, how many have which shape; none of others.
+    pub shapes: ShapeCounts,
     /// Their power in W, a channel.
     pub power: DVec3,
     /// The area that emits light, each side of a two-sided light once; 0 for lights without a
@@ -63,6 +66,7 @@ fn all_of(lights: &LightSet<Rgb>, ids: Range<u32>) -> impl Iterator<Item = Light
     lights.map(|light| LightInventory {
         kind: kind(&light),
         count: 1,
+        shapes: shapes(&light),
         power: light.phi(&()).as_dvec3(),
         area: area(&light).into(),
     })
@@ -73,6 +77,7 @@ fn add(kinds: &mut Vec<LightInventory>, lights: LightInventory) {
     match kinds.iter_mut().find(|entry| entry.kind == lights.kind) {
         Some(entry) => {
             entry.count += lights.count;
+            entry.shapes += lights.shapes;
             entry.power += lights.power;
             entry.area += lights.area;
         }
@@ -108,6 +113,14 @@ pub(crate) fn kind(light: &LightRef<'_, Rgb>) -> &'static str {
         LightRef::PortalInfinite(_) => "portal",
         // The kinds are not exhaustive for other crates; those of today are all above.
         _ => "other",
+    }
+}
+
+/// The shape of an area light; none of others.
+fn shapes(light: &LightRef<'_, Rgb>) -> ShapeCounts {
+    match light {
+        LightRef::Area(light) => ShapeCounts::of(light.shape()),
+        _ => ShapeCounts::default(),
     }
 }
 

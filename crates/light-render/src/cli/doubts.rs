@@ -141,7 +141,7 @@ mod tests {
             kind,
             count: 1,
             power: DVec3::splat(power),
-            area: 0.0,
+            ..LightInventory::default()
         };
         let lost = of_lamps(&[kind("point", 1.0), kind("image sky", 1e5)]);
         let expected = "give 1e-5 times the light of the sky";

@@ -4,7 +4,7 @@ use crate::choice_variance::{ChoiceVariance, choice_variance};
 use crate::{AnyLightSampler, AnyLightSamplerError, LightInventory, SamplerKind, World, inventory};
 use clap::Args;
 use light_scene::Diagnostic;
-use serde_json::{Value, json};
+use serde_json::{Map, Value, json};
 
 use super::failure::Failure;
 use super::render_settings::DEFAULT_DEPTH;
@@ -89,17 +89,7 @@ impl InfoArgs {
         warnings: &[Diagnostic],
     ) -> Value {
         let count = world.lights().len();
-        let kinds: Vec<Value> = kinds
-            .iter()
-            .map(|k| {
-                json!({
-                    "kind": k.kind,
-                    "count": k.count,
-                    "power": k.power.to_array(),
-                    "area": k.area,
-                })
-            })
-            .collect();
+        let kinds: Vec<Value> = kinds.iter().map(kind_report).collect();
         let bounds = world.bounds();
         let bytes = world.lights().bytes();
         let placed = world.lights().placed_counts();
@@ -187,6 +177,9 @@ impl InfoArgs {
                 k.count,
                 k.area
             )?;
+            for (shape, count) in k.shapes.iter() {
+                say!("      {shape:<10} {count:>8}")?;
+            }
         }
         say!(
             "  hierarchy  {}{}: depth {}, {} bytes, built in {:.2} ms",
@@ -231,6 +224,25 @@ impl InfoArgs {
         }
         Ok(())
     }
+}
+
+/// All lights of a kind; area lights by shape too.
+fn kind_report(lights: &LightInventory) -> Value {
+    let mut report = json!({
+        "kind": lights.kind,
+        "count": lights.count,
+        "power": lights.power.to_array(),
+        "area": lights.area,
+    });
+    let shapes: Map<String, Value> = lights
+        .shapes
+        .iter()
+        .map(|(shape, count)| (shape.to_owned(), count.into()))
+        .collect();
+    if !shapes.is_empty() {
+        report["shapes"] = shapes.into();
+    }
+    report
 }
 
 impl Tree {
