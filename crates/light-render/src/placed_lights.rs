@@ -58,10 +58,8 @@ impl PlacedLights {
                     continue;
                 };
                 let prototype = builder.add_mesh_prototype(desc);
-                let prototype = prototype.map_err(|error| SceneLightsError::Light {
-                    name: material.name.clone(),
-                    error,
-                })?;
+                let prototype =
+                    prototype.map_err(|error| SceneLightsError::light(&material.name, error))?;
                 emissive.push(EmissiveMesh {
                     mesh,
                     prototype,

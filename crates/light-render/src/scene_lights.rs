@@ -3,14 +3,15 @@ use lights::bounds::LightId;
 use lights::glam::Vec3;
 use lights::math::Aabb;
 use lights::sources::{
-    self as sources, Image, Light, LightDesc, LightSet, LightSetBuilder, LightType, Rgb,
-    SceneSphere,
+    Image, Light, LightDesc, LightSet, LightSetBuilder, LightType, Rgb, SceneSphere,
 };
 
 use crate::SceneLightsError;
 use crate::emitter_ids::EmitterIds;
+use crate::listed_lights::ListedLights;
 use crate::placed_lights::PlacedLights;
 use crate::surface_emission::{AlphaMaskedLights, Textures};
+use crate::surface_lights::SurfaceLights;
 use crate::world_mesh::WorldMesh;
 use crate::world_object::WorldObject;
 use crate::world_quadric::WorldQuadric;
@@ -58,113 +59,70 @@ impl SceneLights {
         scene_lights: Vec<LightDesc<Rgb>>,
         bounds: &Aabb,
     ) -> Result<Self, SceneLightsError> {
-        let sphere = if bounds.is_empty() {
-            SceneSphere::new(Vec3::ZERO, 1.0)
-        } else {
-            // A scene of a single point still has an outside.
-            let (center, radius) = bounds.bounding_sphere();
-            SceneSphere::new(center, radius.max(f32::MIN_POSITIVE))
-        };
-        let mut builder = LightSetBuilder::new(sphere.map_err(SceneLightsError::Bounds)?);
-        let mut sources = Vec::new();
+        let mut builder = LightSetBuilder::new(scene_sphere(bounds)?);
         let mut textures = Textures::new(images);
-        let mut emissive_meshes = Vec::new();
-        for (index, mesh) in meshes.iter().enumerate() {
-            let material = &materials[mesh.material];
-            if let Some((desc, is_masked)) = textures.mesh_light(mesh, material) {
-                let source = add(&mut builder, &material.name, desc)?;
-                emissive_meshes.push((index, source, is_masked));
-                sources.push(SceneSource::Mesh(index));
-            }
-        }
-        let mut emissive_quadrics = Vec::new();
-        for (index, quadric) in quadrics.iter().enumerate() {
-            let material = &materials[quadric.material()];
-            if let Some((desc, is_masked)) = textures.quadric_light(quadric, material) {
-                let source = add(&mut builder, &material.name, desc)?;
-                emissive_quadrics.push((index, source, is_masked));
-                sources.push(SceneSource::Quadric(index));
-            }
-        }
-        let mut listed = Vec::new();
-        let mut listed_meshes = Vec::new();
-        for (number, light) in scene_lights.into_iter().enumerate() {
-            let mesh = WorldMesh::of_light(&light, materials.len());
-            let source = add(&mut builder, &numbered(number), light)?;
-            match mesh {
-                Some(mesh) => listed_meshes.push((source, mesh)),
-                None => listed.push(source),
-            }
-            sources.push(SceneSource::Light(number));
-        }
-        let own_meshes = meshes.len() + listed_meshes.len();
+        let own = (meshes, quadrics);
+        let surfaces = SurfaceLights::add(&mut builder, own, materials, &mut textures)?;
+        let listed = ListedLights::add(&mut builder, scene_lights, materials.len())?;
+        let own_meshes = meshes.len() + listed.mesh_count();
         let placed =
             PlacedLights::add(&mut builder, objects, own_meshes, materials, &mut textures)?;
-        sources.extend(placed.meshes.iter().copied().map(SceneSource::Mesh));
         let lights = builder.build();
+
         let in_objects = objects.iter().map(|object| object.meshes.len());
         let all_meshes = own_meshes + in_objects.sum::<usize>();
         let mut emitters = EmitterIds::new(all_meshes, quadrics.len());
-        for (index, (source, _)) in (meshes.len()..).zip(&listed_meshes) {
-            emitters.set_mesh(index, lights.first_id(*source));
-        }
         let mut masked = Vec::new();
-        let mut add_masked = |first: Option<LightId>, count, material, is_masked| {
-            if let (Some(LightId(first)), true) = (first, is_masked) {
-                let ids = first..first + count;
-                masked.push(AlphaMaskedLights { ids, material });
-            }
-        };
-        for (index, source, is_masked) in emissive_meshes {
-            let mesh = &meshes[index];
-            let first = lights.first_id(source);
-            emitters.set_mesh(index, first);
-            let count = u32::try_from(mesh.indices.len()).unwrap_or(u32::MAX);
-            add_masked(first, count, mesh.material, is_masked);
-        }
-        for (index, source, is_masked) in emissive_quadrics {
-            let id = lights.first_id(source);
-            emitters.set_quadric(index, id);
-            add_masked(id, 1, quadrics[index].material(), is_masked);
-        }
+        surfaces.set_ids(&lights, own, &mut emitters, &mut masked);
+        listed.set_ids(&lights, meshes.len(), &mut emitters);
         placed.set_ids(&lights, &mut emitters, &mut masked);
         masked.sort_by_key(|lights| lights.ids.start);
-        let has_type = |id: &LightId, light_type| {
-            lights
-                .get(*id)
-                .is_some_and(|light| light.light_type() == light_type)
-        };
-        let infinite = lights.infinite_ids();
-        let listed = listed.into_iter();
-        let listed = listed.filter_map(|source| lights.first_id(source));
         Ok(Self {
-            infinite: infinite
-                .filter(|id| has_type(id, LightType::Infinite))
-                .collect(),
-            listed: listed.filter(|id| has_type(id, LightType::Area)).collect(),
-            listed_meshes: listed_meshes.into_iter().map(|(_, mesh)| mesh).collect(),
+            sources: sources(&surfaces, &listed, &placed),
+            infinite: found_outside(&lights),
+            listed: listed.hit_ids(&lights),
+            listed_meshes: listed.into_meshes(),
             lights,
             emitters,
-            sources,
             masked,
         })
     }
 }
 
-fn add(
-    builder: &mut LightSetBuilder<Rgb>,
-    name: &str,
-    desc: LightDesc<Rgb>,
-) -> Result<sources::SourceId, SceneLightsError> {
-    builder.add(desc).map_err(|error| SceneLightsError::Light {
-        name: name.into(),
-        error,
-    })
+/// The sphere around the scene's box.
+fn scene_sphere(bounds: &Aabb) -> Result<SceneSphere, SceneLightsError> {
+    let sphere = if bounds.is_empty() {
+        SceneSphere::new(Vec3::ZERO, 1.0)
+    } else {
+        // A scene of a single point still has an outside.
+        let (center, radius) = bounds.bounding_sphere();
+        SceneSphere::new(center, radius.max(f32::MIN_POSITIVE))
+    };
+    sphere.map_err(SceneLightsError::Bounds)
 }
 
-/// The name of a light of the scene's list that has no name of its own.
-pub(crate) fn numbered(light: usize) -> String {
-    format!("light {light}")
+/// What each source is, in the order in which they were added to the set.
+fn sources(
+    surfaces: &SurfaceLights,
+    listed: &ListedLights,
+    placed: &PlacedLights,
+) -> Vec<SceneSource> {
+    let meshes = surfaces.meshes.iter().map(|mesh| mesh.index);
+    let meshes = meshes.map(SceneSource::Mesh);
+    let quadrics = surfaces.quadrics.iter().map(|quadric| quadric.index);
+    let quadrics = quadrics.map(SceneSource::Quadric);
+    let listed = (0..listed.count).map(SceneSource::Light);
+    let placed = placed.meshes.iter().copied().map(SceneSource::Mesh);
+    meshes.chain(quadrics).chain(listed).chain(placed).collect()
+}
+
+/// The lights that rays find when they leave the scene.
+fn found_outside(lights: &LightSet<Rgb>) -> Vec<LightId> {
+    let is_found = |id: &LightId| {
+        let light = lights.get(*id);
+        light.is_some_and(|light| light.light_type() == LightType::Infinite)
+    };
+    lights.infinite_ids().filter(is_found).collect()
 }
 
 /// The images of a scene, checked for use by lights and surfaces.

@@ -32,6 +32,14 @@ pub enum SceneLightsError {
     },
 }
 
+impl SceneLightsError {
+    /// That of a light of this name.
+    pub(crate) fn light(name: &str, error: LightDescError) -> Self {
+        let name = name.into();
+        Self::Light { name, error }
+    }
+}
+
 impl fmt::Display for SceneLightsError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {

@@ -4,7 +4,8 @@ use lights::bounds::LightId;
 
 use super::World;
 use crate::inventory::kind;
-use crate::scene_lights::{SceneSource, numbered};
+use crate::listed_lights::numbered;
+use crate::scene_lights::SceneSource;
 
 impl World {
     /// The names of a light: of an emitter its material and its object, another light by its own
