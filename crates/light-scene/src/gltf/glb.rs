@@ -24,6 +24,15 @@ pub(super) const UPGRADE: &str = "; `gltf-pipeline -i OLD -o NEW` makes 2.0 of i
 /// `[GLTF]`, section 4: a header of three words, then chunks, each behind its length and its type.
 pub(super) fn chunks<'a>(path: &'a Path, bytes: &'a [u8]) -> Result<Chunks<'a>, Diagnostic> {
     if !bytes.starts_with(MAGIC) {
+        let first = bytes.trim_ascii_start().first();
+        let is_binary = path
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("glb"));
+        // Some writers name documents so.
+        if is_binary && !matches!(first, Some(b'{' | 0xEF)) {
+            let message = "expected a binary glTF file, which begins with `glTF`";
+            return Err(Diagnostic::at(path, Location::Byte(0), message));
+        }
         let (json, binary) = (bytes, None);
         return Ok(Chunks { json, binary });
     }
@@ -154,5 +163,10 @@ pub(super) mod tests {
         assert_eq!(error(&with(12, 250)), chunk, "a chunk's length");
         let kind = "a: byte 24: expected a chunk of JSON first";
         assert_eq!(error(&with(16, b'X')), kind, "a chunk's type");
+        for bytes in [&b""[..], b"glT", b"\x89PNG"] {
+            let error = chunks(Path::new("a.glb"), bytes).expect_err("an error");
+            let first = "a.glb: byte 0: expected a binary glTF file, which begins with `glTF`";
+            assert_eq!(error.to_string(), first, "{bytes:?}");
+        }
     }
 }

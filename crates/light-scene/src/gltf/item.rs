@@ -1,6 +1,6 @@
 use serde_json::{Map, Value};
 
-use super::document::Document;
+use super::document::{Document, found};
 use crate::Diagnostic;
 use crate::text::shown;
 
@@ -44,12 +44,7 @@ impl<'a> Item<'a> {
 
     /// The message that something else was expected.
     pub(super) fn expected(&self, what: &str) -> Diagnostic {
-        let found = match self.value {
-            Value::Object(_) => "an object".to_owned(),
-            Value::Array(_) => "a list".to_owned(),
-            other => shown(&other.to_string()),
-        };
-        self.error(&format!("expected {what}, found {found}"))
+        self.error(&format!("expected {what}, found {}", found(self.value)))
     }
 
     /// The path without list indices.
