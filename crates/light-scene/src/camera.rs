@@ -96,6 +96,9 @@ impl Crop {
 pub enum CameraError {
     /// Eye and target are the same point, or not finite.
     Direction,
+    /// Eye and target are so close or so far apart that single precision has no square of their
+    /// distance.
+    Distance,
     /// The up vector is zero, not finite, or along the view direction.
     Up,
     /// The field of view is not between 0 and pi.
@@ -110,8 +113,13 @@ impl Camera {
     /// # Errors
     /// When the view direction or the up vector is degenerate, or `fov` is not in (0, pi).
     pub fn look_at(eye: Vec3, target: Vec3, up: Vec3, fov: f32) -> Result<Self, CameraError> {
+        let is_pair = eye.is_finite() && target.is_finite() && eye != target;
         let forward = (target - eye).try_normalize();
-        let forward = forward.ok_or(CameraError::Direction)?;
+        let forward = forward.ok_or(if is_pair {
+            CameraError::Distance
+        } else {
+            CameraError::Direction
+        })?;
         let up = up.try_normalize().ok_or(CameraError::Up)?;
         let right = forward.cross(up);
         // Below this the rounding of the inputs decides where "right" is.
@@ -179,7 +187,8 @@ impl Camera {
 impl fmt::Display for CameraError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
-            Self::Direction => "the camera's eye and target must be two finite points",
+            Self::Direction => "the camera's eye and target must be two different finite points",
+            Self::Distance => "the camera's eye and target must be 1e-19 to 1e19 apart",
             Self::Up => "the camera's up vector must be finite and not along the view direction",
             Self::Fov => "the camera's field of view must lie between 0 and 180 degrees",
         })
@@ -211,6 +220,20 @@ mod tests {
         let direction = Err(CameraError::Direction);
         assert_eq!(look_at(eye, eye, Vec3::Y, 1.0), direction, "no direction");
         assert_eq!(look_at(eye, Vec3::NAN, Vec3::Y, 1.0), direction, "NaN");
+        let distance = Err(CameraError::Distance);
+        for far in [1e30, -3e38, 1e-30] {
+            assert_eq!(
+                look_at(Vec3::X * far, target, Vec3::Y, 1.0),
+                distance,
+                "{far}"
+            );
+        }
+        for far in [1e-19, 1e19] {
+            assert!(
+                look_at(Vec3::X * far, target, Vec3::Y, 1.0).is_ok(),
+                "{far}"
+            );
+        }
         let fov = Err(CameraError::Fov);
         for bad in [0.0, -1.0, 3.2, f32::NAN] {
             assert_eq!(look_at(eye, target, Vec3::Y, bad), fov, "fov {bad}");

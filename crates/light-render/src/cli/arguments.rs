@@ -4,6 +4,7 @@ use core::str::FromStr;
 use core::time::Duration;
 
 use clap::builder::{PossibleValuesParser, TypedValueParser};
+use light_scene::Camera;
 use lights::glam::Vec3;
 
 /// One of some names, which the help lists.
@@ -32,11 +33,13 @@ impl FromStr for LookAt {
 
     fn from_str(text: &str) -> Result<Self, String> {
         let [ex, ey, ez, tx, ty, tz, ux, uy, uz] = numbers(text)?;
-        Ok(Self {
-            eye: Vec3::new(ex, ey, ez),
-            target: Vec3::new(tx, ty, tz),
-            up: Vec3::new(ux, uy, uz),
-        })
+        let eye = Vec3::new(ex, ey, ez);
+        let target = Vec3::new(tx, ty, tz);
+        let up = Vec3::new(ux, uy, uz);
+        match Camera::look_at(eye, target, up, 1.0) {
+            Ok(_) => Ok(Self { eye, target, up }),
+            Err(error) => Err(error.to_string()),
+        }
     }
 }
 
@@ -75,6 +78,18 @@ pub(crate) fn positive(text: &str) -> Result<f32, String> {
     } else {
         Err("expected a finite number above 0".into())
     }
+}
+
+/// An angle of view in degrees, which is below half a turn.
+pub(crate) fn angle_of_view(text: &str) -> Result<f32, String> {
+    let degrees = text.parse().ok();
+    let is_angle = |degrees: &f32| {
+        let radians = degrees.to_radians();
+        radians > 0.0 && radians < core::f32::consts::PI
+    };
+    degrees
+        .filter(is_angle)
+        .ok_or_else(|| "expected a number of degrees between 0 and 180".into())
 }
 
 /// A number that is neither infinite nor NaN.
@@ -164,8 +179,27 @@ mod tests {
     fn nine_numbers_look_at_something() {
         let look_at: LookAt = "0,1,2, 3,4,5, 0,1,0".parse().expect("nine numbers");
         assert_eq!(look_at.target, Vec3::new(3.0, 4.0, 5.0), "the middle three");
-        for bad in ["", "1,2,3", "0,1,2,3,4,5,0,1,x", "0,1,2,3,4,5,0,1,nan"] {
-            assert!(bad.parse::<LookAt>().is_err(), "{bad}");
+        for (bad, expected) in [
+            ("", "9 finite numbers"),
+            ("1,2,3", "9 finite numbers"),
+            ("0,1,2,3,4,5,0,1,x", "9 finite numbers"),
+            ("0,1,2,3,4,5,0,1,nan", "9 finite numbers"),
+            ("0,1,2,0,1,2,0,1,0", "two different finite points"),
+            ("1e30,0,0,0,0,0,0,1,0", "1e-19 to 1e19 apart"),
+            ("0,3,0,0,0,0,0,1,0", "not along the view"),
+        ] {
+            let error = bad.parse::<LookAt>().expect_err(bad);
+            assert!(error.contains(expected), "{bad}: {error}");
+        }
+    }
+
+    #[test]
+    fn angles_of_view_are_below_half_a_turn() {
+        for good in ["1e-3", "40", "179.9"] {
+            assert!(angle_of_view(good).is_ok(), "{good}");
+        }
+        for bad in ["0", "-1", "180", "nan", "inf", "wide", ""] {
+            assert!(angle_of_view(bad).is_err(), "{bad}");
         }
     }
 

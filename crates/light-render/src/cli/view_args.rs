@@ -2,7 +2,7 @@ use crate::{View, ViewError};
 use clap::Args;
 use light_scene::{Camera, Crop, Projection, Scene};
 
-use super::arguments::{LookAt, positive};
+use super::arguments::{LookAt, angle_of_view};
 use super::failure::Failure;
 use super::whole::whole;
 use super::window::Window;
@@ -28,7 +28,7 @@ pub(crate) struct ViewArgs {
     )]
     look_at: Option<LookAt>,
     /// Angle of view across the shorter side.
-    #[arg(long, value_name = "DEGREES", value_parser = positive)]
+    #[arg(long, value_name = "DEGREES", value_parser = angle_of_view)]
     fov: Option<f32>,
 }
 

@@ -122,7 +122,12 @@ fn nonsense_on_the_command_line_is_refused() {
     }
     assert_refused(
         &["render", &scene, "-o", &out, "--fov", "180"],
-        &["angle of view"],
+        &["--fov", "between 0 and 180"],
+    );
+    let far = "--look-at=1e30,0,0,0,0,0,0,1,0";
+    assert_refused(
+        &["render", &scene, "-o", &out, far],
+        &["--look-at", "1e-19 to 1e19 apart"],
     );
     // A number below 0 is a value, not a flag.
     let compare = ["compare", &out, &out, "--max-bias", "-1"];

@@ -50,7 +50,7 @@ fn flags_that_make_no_camera_or_light_are_named() {
     let out = folder.path("a.exr");
     let render = ["render", &scene, "-o", &out];
     for (flag, value, expected) in [
-        ("--fov", "180", "--fov: the angle of view must"),
+        ("--fov", "180", "between 0 and 180"),
         ("--width", "99999999", "--width, --height: the picture must"),
         (
             "--spp",
