@@ -49,6 +49,7 @@ mod report;
 mod sample_stream;
 mod sampler_kind;
 mod sampler_memory;
+mod scene_bounds;
 mod scene_digest;
 mod scene_lights;
 mod scene_lights_error;

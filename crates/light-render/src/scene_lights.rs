@@ -1,7 +1,5 @@
 use light_scene::Material;
 use lights::bounds::LightId;
-use lights::glam::Vec3;
-use lights::math::Aabb;
 use lights::sources::{
     Image, Light, LightDesc, LightSet, LightSetBuilder, LightType, Rgb, SceneSphere,
 };
@@ -57,9 +55,9 @@ impl SceneLights {
         images: &[Image],
         objects: &[WorldObject],
         scene_lights: Vec<LightDesc<Rgb>>,
-        bounds: &Aabb,
+        sphere: SceneSphere,
     ) -> Result<Self, SceneLightsError> {
-        let mut builder = LightSetBuilder::new(scene_sphere(bounds)?);
+        let mut builder = LightSetBuilder::new(sphere);
         let mut textures = Textures::new(images);
         let own = (meshes, quadrics);
         let surfaces = SurfaceLights::add(&mut builder, own, materials, &mut textures)?;
@@ -87,18 +85,6 @@ impl SceneLights {
             masked,
         })
     }
-}
-
-/// The sphere around the scene's box.
-fn scene_sphere(bounds: &Aabb) -> Result<SceneSphere, SceneLightsError> {
-    let sphere = if bounds.is_empty() {
-        SceneSphere::new(Vec3::ZERO, 1.0)
-    } else {
-        // A scene of a single point still has an outside.
-        let (center, radius) = bounds.bounding_sphere();
-        SceneSphere::new(center, radius.max(f32::MIN_POSITIVE))
-    };
-    sphere.map_err(SceneLightsError::Bounds)
 }
 
 /// What each source is, in the order in which they were added to the set.

@@ -18,6 +18,7 @@ mod color;
 mod corrupted_files;
 mod diagnostic;
 mod emissive_copies;
+mod extent_fault;
 mod files;
 #[cfg(test)]
 mod format_agreement;
@@ -44,6 +45,7 @@ mod quadric_kind;
 mod quadric_part;
 mod read_files;
 mod scene;
+mod scene_bounds;
 mod scene_file;
 mod scene_light;
 #[cfg(test)]

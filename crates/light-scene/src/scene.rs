@@ -1,9 +1,7 @@
-use lights::math::Aabb;
 use lights::media::AnyMedium;
-use lights::sources::shape::Shape;
 use lights::sources::{
-    self as sources, EmissionMask, EnvironmentMap, ImageInfiniteLightDesc, LightDesc, MediumId,
-    OwnLight, RadianceAmount, Rgb,
+    self as sources, EnvironmentMap, ImageInfiniteLightDesc, LightDesc, MediumId, RadianceAmount,
+    Rgb,
 };
 
 use crate::emissive_copies::EmissiveCount;
@@ -56,22 +54,6 @@ pub struct Scene {
 }
 
 impl Scene {
-    /// A box around the scene, empty for a scene without geometry. It is tight around meshes and
-    /// quadrics; an instance counts by the transformed corners of the boxes of its prototype, an
-    /// own light that rays hit by its bounds; an invisible area or mesh light counts not at all.
-    #[must_use]
-    pub fn bounds(&self) -> Aabb {
-        let meshes = self.meshes.iter().map(Mesh::bounds);
-        let own = meshes.chain(self.quadrics.iter().map(Quadric::bounds));
-        let own = own.chain(self.lights.iter().filter_map(light_box));
-        let own = own.fold(Aabb::EMPTY, Aabb::union);
-        let boxes: Vec<Vec<Aabb>> = self.prototypes.iter().map(Prototype::boxes).collect();
-        let instances = self.instances.iter();
-        let instances =
-            instances.map(|instance| instance.bounds(&boxes[instance.prototype.0 as usize]));
-        instances.fold(own, Aabb::union)
-    }
-
     /// The material with this id.
     ///
     /// # Panics
@@ -237,29 +219,11 @@ impl Scene {
     }
 }
 
-/// The box of a light that rays hit. A surface that is not valid has none: building the lights
-/// refuses it, and names it.
-fn light_box(light: &LightDesc<Rgb>) -> Option<Aabb> {
-    let is_visible = |mask: &EmissionMask| *mask != EmissionMask::Invisible;
-    match light {
-        LightDesc::Own(OwnLight::Area(light)) => Some(light.bounds()?.bounds),
-        LightDesc::Area(light) if is_visible(&light.emission.mask) => {
-            Some(light.shape.build().ok()?.bounds())
-        }
-        LightDesc::Mesh(light) if is_visible(&light.emission.mask) => {
-            let corners = light.indices.iter().flatten();
-            let corners = corners.filter_map(|vertex| light.positions.get(vertex as usize));
-            let corners = corners.filter(|p| p.is_finite());
-            Some(corners.fold(Aabb::EMPTY, |all, &p| all.union(Aabb::new(p, p))))
-        }
-        _ => None,
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::Emission;
+    use lights::math::Aabb;
 
     #[test]
     fn counts_and_bounds() {

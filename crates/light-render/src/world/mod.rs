@@ -18,6 +18,7 @@ use lights::math::Aabb;
 use lights::sources::{Image, LightSet, MediumId, Rgb};
 
 use crate::emitter_ids::EmitterIds;
+use crate::scene_bounds::scene_sphere;
 use crate::scene_lights::{SceneLights, SceneSource, checked_images};
 use crate::surface_emission::AlphaMaskedLights;
 use crate::world_media::WorldMedia;
@@ -86,6 +87,7 @@ impl World {
         // First: the box takes time for each copy.
         Objects::refuse_copies(&scene)?;
         let bounds = scene.bounds();
+        let sphere = scene_sphere(&scene, &bounds)?;
         let objects = Objects::take(&mut scene)?.instanced;
         let Scene {
             meshes,
@@ -111,7 +113,7 @@ impl World {
             listed: listed_lights,
             listed_meshes,
         } = SceneLights::new(
-            &meshes, &quadrics, &materials, &images, &objects, lights, &bounds,
+            &meshes, &quadrics, &materials, &images, &objects, lights, sphere,
         )?;
         if !(listed_lights.is_empty() && listed_meshes.is_empty()) {
             materials.push(Material::diffuse("listed light", Vec3::ZERO));

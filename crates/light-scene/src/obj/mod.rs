@@ -8,8 +8,11 @@ mod sections;
 
 use std::path::Path;
 
+use lights::math::Aabb;
+
+use crate::extent_fault::extent_fault;
 use crate::text::{Line, logical_lines, read_text};
-use crate::{Diagnostic, Files, Scene};
+use crate::{Diagnostic, Files, Location, Scene};
 
 use cleaned::Cleaned;
 use reader::Reader;
@@ -76,8 +79,24 @@ pub fn parse_obj(path: &Path, text: &str, files: Files<'_>) -> Result<Scene, Dia
         let message = format!("expected at least one face (`f`){with_area}");
         return Err(Diagnostic::file(path, message));
     }
+    if let Some(message) = extent_fault(&scene.bounds()) {
+        return Err(of_extent(path, text, &scene.bounds(), message));
+    }
     scene.drop_coincident_emitters(path);
     Ok(scene)
+}
+
+/// The error of a scene that is too large: the first vertex that is farthest from the origin.
+fn of_extent(path: &Path, text: &str, bounds: &Aabb, message: String) -> Diagnostic {
+    let reach = bounds.min.abs().max(bounds.max.abs()).max_element();
+    let farthest = logical_lines(text).find_map(|(number, text)| {
+        let mut line = Line::new(path, number, &text);
+        let is_vertex = line.word() == Some("v");
+        let position = is_vertex.then(|| line.vec3("a vertex coordinate").ok())??;
+        (position.abs().max_element() >= reach).then_some(number)
+    });
+    let location = farthest.map_or(Location::File, Location::Line);
+    Diagnostic::at(path, location, message)
 }
 
 /// The first line whose numbers are not finite, or fewer than they should be.

@@ -74,6 +74,10 @@ fn broken_obj_lines_give_one_clear_line() {
             "v 0 0 0\nvt 0 0\nf 1 1 1/1\n",
             "dir/a.obj:3: expected all corners alike: v, v/vt, v//vn or v/vt/vn",
         ),
+        (
+            "v 0 0 0\nv 1 0 0\nv 0 -1e30 0\nf 1 2 3\n",
+            "dir/a.obj:3: expected a size of at most about 1e19, found y from -1e30 to 0.0",
+        ),
         ("usemtl\n", "dir/a.obj:1: expected a material's name"),
         ("mtllib\n", "dir/a.obj:1: expected a file name"),
         ("", "dir/a.obj: expected at least one face (`f`)"),

@@ -1,3 +1,5 @@
+use lights::math::Aabb;
+
 use super::file_loc::FileLoc;
 use super::object_slots::{ObjectSlot, Objects, OpenObject};
 use super::state::{FLATTENED, Reader, State};
@@ -103,18 +105,22 @@ impl Reader {
         }
     }
 
-    /// Adds an object without a name, which emits nothing, in one place.
+    /// Adds an object without a name, which emits nothing, in one place; its box there.
     pub(super) fn add_single_instance(
         &mut self,
         at: FileLoc<'_>,
         prototype: Prototype,
         transform: Affine3A,
-    ) {
+    ) -> Aabb {
+        let boxes = prototype.boxes();
         let prototype = self.objects.add(at, "", Some(prototype));
-        self.scene.instances.push(Instance {
+        let instance = Instance {
             prototype,
             transform,
-        });
+        };
+        let bounds = instance.bounds(&boxes);
+        self.scene.instances.push(instance);
+        bounds
     }
 
     /// All objects, in the order of their ids, after the last directive.

@@ -65,6 +65,7 @@ impl Reader {
         }
         if let Some(mut moved) = quadric.transformed(&transform) {
             moved.material = self.shape_material(typed, || moved.area());
+            self.expect_extent(typed, &moved.bounds());
             self.add_quadric(moved);
             return true;
         }
@@ -77,7 +78,8 @@ impl Reader {
         quadric.material = self.shape_material(typed, || 0.0);
         let mut prototype = Prototype::new(typed.kind.as_str(), Vec::new());
         prototype.quadrics.push(quadric);
-        self.add_single_instance(typed.at, prototype, place);
+        let bounds = self.add_single_instance(typed.at, prototype, place);
+        self.expect_extent(typed, &bounds);
         true
     }
 

@@ -11,6 +11,14 @@ fn broken_files_give_one_clear_line() {
         ),
         ("\nFoo", "a.pbrt:2: expected a directive, found `Foo`"),
         (
+            "WorldBegin\nShape \"sphere\"\nShape \"sphere\" \"float radius\" 1e30",
+            "a.pbrt:3: expected a size of at most about 1e19, found x from -1e30 to 1e30",
+        ),
+        (
+            "WorldBegin\nShape \"disk\"\nShape \"disk\" \"float radius\" 1e19",
+            "a.pbrt:3: expected a size of at most about 1e19, found x from -1e19 to 1e19",
+        ),
+        (
             "Translate 1 2",
             "a.pbrt:1: expected a distance, found the end of the file",
         ),

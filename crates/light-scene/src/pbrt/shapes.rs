@@ -1,5 +1,7 @@
 use core::f32::consts::TAU;
 
+use lights::math::Aabb;
+
 use super::area_lights::area_scale;
 use super::file_loc::Typed;
 use super::light_check::fault_of_power;
@@ -8,6 +10,7 @@ use super::meshes::{bilinear_mesh, check, triangle_mesh};
 use super::ply::read_ply;
 use super::quadrics::quadric;
 use super::state::{FLATTENED, Reader};
+use crate::extent_fault::extent_fault;
 use crate::glam::{Affine3A, Vec3};
 use crate::scene_light::scaled;
 use crate::{Alpha, Color, Diagnostic, Emission, EmissionSides, MaterialId};
@@ -81,7 +84,20 @@ impl Reader {
             mesh.turn_over();
         }
         mesh.material = self.shape_material(typed, || mesh.area());
+        self.expect_extent(typed, &mesh.bounds());
         self.add_mesh(at, mesh)
+    }
+
+    /// Refuses a shape of this box that no scene can hold. What an object holds may be small where
+    /// it is placed.
+    pub(super) fn expect_extent(&self, typed: &Typed<'_>, bounds: &Aabb) {
+        if self.objects.open.is_some() {
+            return;
+        }
+        if let Some(message) = extent_fault(bounds) {
+            let at = typed.at;
+            typed.parameters.keep(at.path, at.line, message);
+        }
     }
 
     /// The material of a shape of this area: the current one, with the media, the emission and the

@@ -97,6 +97,29 @@ fn scenes_of_unknown_endings_are_told_what_there_is() {
     }
 }
 
+/// The parts are of a size that a scene may have, the whole is not.
+#[test]
+fn what_makes_a_scene_too_large_is_named() {
+    let folder = Folder::new("too-large");
+    let far = "Translate 2e19 0 0 Shape \"sphere\"\n";
+    let object = "ObjectBegin \"box\"\nShape \"disk\"\nObjectEnd\nScale 1e20 1 1\n";
+    for (name, shapes, farthest) in [
+        (
+            "apart",
+            format!("{far}Translate -4e19 0 0 Shape \"disk\"\n"),
+            "sphere",
+        ),
+        ("object", format!("{object}ObjectInstance \"box\"\n"), "box"),
+    ] {
+        let scene = format!("WorldBegin LightSource \"infinite\"\n{shapes}");
+        let scene = folder.file(&format!("{name}.pbrt"), &scene);
+        let reaches = format!("`{farthest}` reaches farthest");
+        let words = [name, "of a size of about 1e-19 to 1e19", &reaches];
+        assert_refused(&["info", &scene], &words);
+        assert_refused(&["bench", &scene], &words);
+    }
+}
+
 #[test]
 fn nonsense_on_the_command_line_is_refused() {
     let folder = Folder::new("nonsense");
