@@ -24,6 +24,9 @@ pub struct PartialPicture {
     pub identity: PictureIdentity,
 }
 
+/// What an OpenEXR file begins with.
+const EXR: &[u8] = &[0x76, 0x2f, 0x31, 0x01];
+
 const SAMPLES: &str = "lights.samples";
 const IDENTITY: &str = "lights.picture";
 const COLORS: [&str; 3] = ["R", "G", "B"];
@@ -49,7 +52,13 @@ impl PartialPicture {
         match file_checksum::is_whole(bytes) {
             Some(true) => {}
             Some(false) => return Err(refuse(PartialPictureError::Damaged)),
-            None => return Err(refuse(PartialPictureError::NoPart)),
+            None => {
+                // A picture that is cut off is not told by what it lacks.
+                if bytes.starts_with(EXR) {
+                    ChannelFile::parse(path, bytes)?;
+                }
+                return Err(refuse(PartialPictureError::NoPart));
+            }
         }
         let file = ChannelFile::parse(path, bytes)?;
         Self::from_file(&file).ok_or_else(|| refuse(PartialPictureError::NoPart))

@@ -1,6 +1,8 @@
 //! Bad input and bad usage.
 
-use crate::program::folder::{Folder, LIT, assert_refused, lights};
+use std::fs;
+
+use crate::program::folder::{Folder, LIT, assert_refused, lights, stdout};
 
 #[test]
 fn bad_input_is_refused_in_one_line_and_leaves_nothing() {
@@ -97,6 +99,26 @@ fn scenes_of_unknown_endings_are_told_what_there_is() {
     }
 }
 
+#[test]
+fn parts_that_are_cut_off_are_not_taken_for_other_pictures() {
+    let folder = Folder::new("cut-parts");
+    let scene = folder.scene(LIT);
+    let [part, cut, out] = ["part.exr", "cut.exr", "out.exr"].map(|name| folder.path(name));
+    let render = ["render", &scene, "-o", &part, "--width", "8"];
+    stdout(&[&render[..], &["--samples", "0..1"]].concat());
+    let whole = fs::read(&part).expect("a part");
+    let merge = ["merge", &cut, "-o", &out];
+    for (count, words) in [
+        (40, "end of the file is missing"),
+        (whole.len() - 9, "damaged"),
+    ] {
+        fs::write(&cut, &whole[..count]).expect("written");
+        assert_refused(&merge, &["cut.exr", words]);
+    }
+    fs::write(&cut, "no picture").expect("written");
+    assert_refused(&merge, &["cut.exr", "rendered with --samples"]);
+}
+
 /// The parts are of a size that a scene may have, the whole is not.
 #[test]
 fn what_makes_a_scene_too_large_is_named() {
@@ -186,7 +208,7 @@ fn limits_below_zero_are_named() {
 #[test]
 fn scenes_end_in_capitals_too() {
     let folder = Folder::new("capitals");
-    let scene = std::fs::read_to_string(folder.scene(LIT)).expect("a scene");
+    let scene = fs::read_to_string(folder.scene(LIT)).expect("a scene");
     let upper = folder.file("ROOM.OBJ", &scene);
     let out = folder.path("out.exr");
     let done = lights(&["render", &upper, "-o", &out, "--width", "8", "--spp", "1"]);
