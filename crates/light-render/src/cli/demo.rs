@@ -1,5 +1,4 @@
 use core::time::Duration;
-use std::fs;
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
@@ -10,6 +9,7 @@ use light_scene::glam::Vec3;
 use light_scene::{BuiltinScene, Camera, Image, write_exr, write_png};
 
 use super::failure::Failure;
+use super::output_file::make_folder;
 use super::output_image::shown;
 use super::progress::{ProgressLine, Volume};
 use super::references::reference_halves;
@@ -67,8 +67,7 @@ const FLOOR: f64 = 0.01;
 /// When the pictures cannot be written.
 pub(crate) fn run() -> Result<(), Failure> {
     let folder = PathBuf::from(FOLDER);
-    fs::create_dir_all(&folder)
-        .map_err(|error| Failure::Input(format!("{FOLDER}: cannot be made: {error}")))?;
+    make_folder(&folder)?;
     say!(
         "{:<13} {:<14} {:>5} {:>8} {:>9} {:>10}",
         "scene",

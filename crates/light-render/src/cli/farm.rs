@@ -12,7 +12,7 @@ use crate::farm::{
 
 use super::arguments::count;
 use super::failure::Failure;
-use super::output_file::refuse;
+use super::output_file::{make_folder, refuse};
 use super::render_settings::{FileSettings, SettingsArgs};
 use super::scene_input::SceneInput;
 use super::stdout::{complain, say};
@@ -90,8 +90,7 @@ impl FarmArgs {
                 (plan.with_frames(frames), pictures)
             }
         };
-        fs::create_dir_all(&self.output)
-            .map_err(|error| refuse(&self.output, format!("cannot be made: {error}")))?;
+        make_folder(&self.output)?;
         self.write(&self.engine.files(&plan))?;
         let file = format!("{folder}/{}", self.engine.file());
         say!(

@@ -24,6 +24,21 @@ pub(crate) fn expect_writable(path: &Path) -> Result<(), Failure> {
         .map_err(|error| refuse(path, format!("cannot be written: {error}")))
 }
 
+/// Makes a folder for outputs, and those that it lies in, where they are missing.
+///
+/// # Errors
+/// When that cannot be, as where there is a file of that name.
+pub(crate) fn make_folder(path: &Path) -> Result<(), Failure> {
+    fs::create_dir_all(path).map_err(|error| {
+        let reason = if path.is_file() {
+            "expected a folder, found a file".to_owned()
+        } else {
+            format!("cannot be made: {error}")
+        };
+        refuse(path, reason)
+    })
+}
+
 /// Makes sure that an image can be written to `path`, as [`expect_writable`] does.
 ///
 /// # Errors

@@ -3,6 +3,7 @@
 use std::fs;
 
 use crate::program::folder::{Folder, LIT, assert_refused, lights, stdout};
+use crate::program::watched::watch;
 
 #[test]
 fn bad_input_is_refused_in_one_line_and_leaves_nothing() {
@@ -97,6 +98,18 @@ fn scenes_of_unknown_endings_are_told_what_there_is() {
         let words = [name, ".pbrt", ".gltf", "cornell-box", "night"];
         assert_refused(&["render", name, "-o", "a.exr"], &words);
     }
+}
+
+#[test]
+fn files_in_the_place_of_folders_are_named() {
+    let folder = Folder::new("no-folders");
+    let (scene, job) = (folder.scene(LIT), folder.file("job", ""));
+    let words = "expected a folder, found a file";
+    let farm = ["farm", &scene, "--engine", "slurm", "-o", &job];
+    let farm = [&farm[..], &["--parts", "2", "--spp", "8"]].concat();
+    assert_refused(&farm, &["job", words]);
+    folder.file("out", "");
+    watch(&folder.0, &[]).assert_refused(&["out", words]);
 }
 
 #[test]
