@@ -1,5 +1,7 @@
 use std::process::ExitCode;
 
+use clap::error::ErrorKind;
+
 use super::failure::Failure;
 use super::interrupt::INTERRUPTED;
 use super::stdout::{complain, flush, line};
@@ -44,7 +46,19 @@ pub(crate) fn report_usage(error: &clap::Error) -> ExitCode {
             words
         }
     });
-    Failure::input(paragraphs.collect::<Vec<_>>().join("; ")).report()
+    let mut paragraphs: Vec<_> = paragraphs.collect();
+    let has_tip = paragraphs.len() > 1;
+    paragraphs.extend(help_for(error.kind()).filter(|_| !has_tip));
+    Failure::input(paragraphs.join("; ")).report()
+}
+
+/// Where to look for what would be right, where that is a name.
+const fn help_for(kind: ErrorKind) -> Option<&'static str> {
+    match kind {
+        ErrorKind::InvalidSubcommand => Some("`--help` lists the commands"),
+        ErrorKind::UnknownArgument => Some("`--help` lists the flags"),
+        _ => None,
+    }
 }
 
 /// The words of `message` on a single line.

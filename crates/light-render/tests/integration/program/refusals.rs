@@ -198,6 +198,8 @@ fn nonsense_on_the_command_line_is_refused() {
     assert_refused(&again, &["--watch", "--skip-existing"]);
     assert_refused(&["render", &scene], &["--output"]);
     assert_refused(&["redner"], &["redner"]);
+    assert_refused(&["paint"], &["'paint'; `--help` lists the commands"]);
+    assert_refused(&["--paint"], &["'--paint' found; `--help` lists the flags"]);
     assert_refused(&["env"], &["lights env", "convert", "median-cut"]);
     assert_refused(&["render", &scene, "-o", &out, "--sp", "4"], &["--sp"]);
     assert_refused(&["compare", &out, &out], &["out.exr"]);
