@@ -22,7 +22,8 @@ impl VisibilityName {
         match self {
             Self::Pilot => Some(
                 "--visibility pilot: no pilot picture is made, lights are chosen as by default; \
-                 docs/occlusion.md says why",
+                 share and cells choose them by what is seen (docs/occlusion.md says why there is \
+                 no pilot)",
             ),
             Self::Off | Self::Share | Self::Cells => None,
         }

@@ -206,7 +206,7 @@ fn a_pilot_is_the_default_and_one_line_says_so() {
     let (named, said) = render("named.exr", &pilot);
     assert!(named == plain, "the same picture");
     assert_eq!(said.lines().count(), 1, "{said}");
-    for word in ["--visibility pilot", "docs/occlusion.md"] {
+    for word in ["--visibility pilot", "share", "cells", "docs/occlusion.md"] {
         assert!(said.contains(word), "{word} in {said}");
     }
     let (_, quiet) = render("quiet.exr", &[&pilot[..], &["--quiet"]].concat());
