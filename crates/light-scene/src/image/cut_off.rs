@@ -9,13 +9,21 @@ const OF_DECODERS: [&str; 5] = [
     "Not enough bytes",
 ];
 
-/// The error of a decoder; of a file that was cut off, what is missing.
+/// The error of a decoder, without the name of the format; of a file that was cut off, what is
+/// missing.
 pub(super) fn in_words(error: &impl Display) -> String {
     let message = error.to_string();
     if OF_DECODERS.iter().any(|words| message.contains(words)) {
         return "the end of the file is missing".to_owned();
     }
-    message
+    if let Some((_, what)) = message.split_once(" does not support ") {
+        return format!("no support for {}", what.trim_end_matches('.'));
+    }
+    // The message says which format that is already.
+    let reason = message.strip_prefix("Format error decoding ");
+    let reason = reason.and_then(|reason| reason.split_once(": "));
+    let reason = reason.map_or(&*message, |(_, reason)| reason);
+    reason.trim_end_matches('.').to_owned()
 }
 
 #[cfg(test)]
@@ -28,6 +36,38 @@ mod tests {
     use crate::glam::Vec3;
     use crate::test_folder::TestFolder;
     use crate::{Image, parse_image, write_image};
+
+    #[test]
+    fn files_of_other_content_say_what_they_are_not() {
+        for (name, bytes, expected) in [
+            ("a.png", "no picture", "a PNG file: Invalid PNG signature"),
+            (
+                "a.jpg",
+                "no picture",
+                "a JPEG file: Error parsing image. Illegal start",
+            ),
+            (
+                "a.hdr",
+                "no picture",
+                "a Radiance HDR file: Radiance HDR signature not found",
+            ),
+            (
+                "a.tga",
+                "\u{1}\u{7}\u{1}no picture, but long enough",
+                "a TGA file: ",
+            ),
+        ] {
+            let error = parse_image(Path::new(name), bytes.as_bytes()).expect_err(name);
+            let found = error.to_string();
+            assert!(
+                found.starts_with(&format!("{name}: expected {expected}")),
+                "{found}"
+            );
+            for word in ["Format error", "encoder"] {
+                assert!(!found.contains(word), "{found}");
+            }
+        }
+    }
 
     #[test]
     fn files_that_were_cut_off_say_so() {

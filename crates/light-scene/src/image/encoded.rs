@@ -30,6 +30,8 @@ impl EncodedImage {
             [0xff, 0xd8, ..] => (ImageFormat::Jpeg, "a JPEG file"),
             // Files of this kind have no mark of their own.
             _ if ending(path) == "tga" => (ImageFormat::Tga, "a TGA file"),
+            [0x89, b'P', ..] => (ImageFormat::Png, "a PNG file"),
+            _ if matches!(&*ending(path), "jpg" | "jpeg") => (ImageFormat::Jpeg, "a JPEG file"),
             _ => (ImageFormat::Png, "a PNG file"),
         };
         let image = decode(path, bytes, format, what)?;

@@ -75,12 +75,12 @@ fn what_cannot_be_read_is_refused_by_name() {
         ),
         (
             "\n+Y 1 +X 1\n",
-            "a.hdr: expected a Radiance HDR file: The decoder for Hdr does not support the \
-             format features Orientation +Y +X",
+            "a.hdr: expected a Radiance HDR file: no support for the format features Orientation \
+             +Y +X",
         ),
         (
             "EXPOSURE=no\n\n-Y 1 +X 1\n",
-            "a.hdr: expected a Radiance HDR file: Format error decoding Hdr: Cannot parse \
+            "a.hdr: expected a Radiance HDR file: Cannot parse \
              EXPOSURE value as f32: invalid float literal",
         ),
         (
