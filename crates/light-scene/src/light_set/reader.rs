@@ -6,7 +6,7 @@ use glam::Vec3;
 use light_sets::{BenchSet, SetLight, SetPoint};
 
 use super::error::{LightSetError, LightSetProblem};
-use crate::text::{read_all, shown, without_mark};
+use crate::text::{read_all, shown, text_of};
 
 /// The set in the files `lights` and `points`. A normal that is a unit vector but for the rounding
 /// of single precision keeps its bits; others, within a thousandth of one, are made unit.
@@ -34,8 +34,7 @@ fn read_records<T>(
         error(0, LightSetProblem::Io(io::Error::new(e.kind(), words)))
     };
     let bytes = read_all(path).map_err(refuse)?;
-    let text = core::str::from_utf8(without_mark(&bytes));
-    let text = text.map_err(|e| refuse(io::Error::other(e)))?;
+    let text = text_of(&bytes);
     let records: Vec<T> = text
         .lines()
         .enumerate()
@@ -227,6 +226,12 @@ mod tests {
             marked.display()
         );
         assert_eq!(error.to_string(), expected);
+        std::fs::write(&marked, b"point 1 2 3 4\n\xb5 1 2\n").expect("written");
+        let error = read_light_set(&marked, missing).expect_err("no text");
+        assert!(
+            error.to_string().contains(":2: expected a record"),
+            "{error}"
+        );
         let huge = parse_light("tri 0 0 0 1e20 0 0 0 1e20 0 1 0").expect("a triangle");
         assert!(
             matches!(of_finite_power(huge), Err(P::Power { .. })),

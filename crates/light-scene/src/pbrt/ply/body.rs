@@ -85,7 +85,11 @@ impl Body<'_> {
         self.at += start;
         let word = core::str::from_utf8(&rest[start..end]).unwrap_or_default();
         let parsed = f64::from_str(word);
-        let message = || format!("expected a number, found `{}`", shown(word));
+        let found = || match word {
+            "" if start == rest.len() => "the end of the file".to_owned(),
+            word => format!("`{}`", shown(word)),
+        };
+        let message = || format!("expected a number, found {}", found());
         let number = parsed.map_err(|_| self.error(message()))?;
         self.at += end - start;
         Ok(number)

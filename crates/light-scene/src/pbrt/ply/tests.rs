@@ -72,7 +72,7 @@ fn ply_in_text_and_binary() {
         (
             "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nproperty float \
              y\nproperty float z\nend_header\n1 2 3\n",
-            "a.ply:9: expected a number, found ``",
+            "a.ply:9: expected a number, found the end of the file",
         ),
     ];
     for (text, expected) in broken {
