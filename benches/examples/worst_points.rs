@@ -104,7 +104,7 @@ fn show_way(tree: &LightBvh, point: &Measured) {
             "  node {index}, a code {:.2e}, the point at codes {at:.1}",
             1.0 / node.inv_scale
         );
-        for child in 0..usize::from(node.count) {
+        for child in 0..node.children() {
             let lights = lights_below(tree, node, child);
             let sum = |of: &[f64]| lights.iter().map(|&light| of[light]).sum::<f64>();
             let (given, pmf) = (sum(&point.given) / total, sum(&pmfs));
@@ -129,7 +129,7 @@ fn lights_below(tree: &LightBvh, node: &WideNode, child: usize) -> Vec<usize> {
         return vec![view.order()[node.light_base as usize + child - inner] as usize];
     }
     let below = &view.nodes()[node.child_base as usize + child];
-    let children = 0..usize::from(below.count);
+    let children = 0..below.children();
     children
         .flat_map(|child| lights_below(tree, below, child))
         .collect()

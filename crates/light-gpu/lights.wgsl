@@ -3,6 +3,7 @@
 // Generated.
 
 const LIGHT_BENT: f32 = 0.1894306;
+const LIGHT_BESIDE: f32 = 4.0;
 const LIGHT_BOX_EMISSION: f32 = 297.0;
 const LIGHT_CUT_THRESHOLD: f32 = 0.08;
 const LIGHT_DISTANCE: f32 = 0.09;
@@ -332,6 +333,8 @@ struct LightNode {
     has_rare: bool,
     // Whether codes of the node describe a subtree coarsely.
     has_rough: bool,
+    // Whether the lights lie along a line.
+    is_line: bool,
 }
 
 // Where a receiver sees the children of a node, and in which unit of length.
@@ -386,7 +389,8 @@ fn light_node(first: u32) -> LightNode {
     node.child_base = links.x;
     node.light_base = links.y;
     node.inner = (links.z >> 16u) & 0xffu;
-    node.count = links.z >> 24u;
+    node.count = (links.z >> 24u) & 0x7fu;
+    node.is_line = (links.z >> 31u) == 1u;
     node.parent = links.w;
     // The two top bits of the gain are flags.
     node.gain = bitcast<f32>((links.z & 0x3fffu) << 16u);
@@ -585,6 +589,15 @@ fn light_is_doubtful(c: LightChildren, share: vec4<f32>) -> vec4<bool> {
     let doubt = select(width_sq, share * (root + beyond), c.step);
     let unit = select(c.dist_sq, LIGHT_DOUBT * (root - beyond), c.step);
     return share * doubt > LIGHT_DOUBT * unit;
+}
+
+// Whether the receiver is nearer to the boxes of the children than half of their width.
+fn light_is_beside(c: LightChildren) -> vec4<bool> {
+    let x = max(vec4<f32>(0.0), abs(c.mean_x) - c.extent_x);
+    let y = max(vec4<f32>(0.0), abs(c.mean_y) - c.extent_y);
+    let z = max(vec4<f32>(0.0), abs(c.mean_z) - c.extent_z);
+    let width = light_width(c);
+    return width * width > LIGHT_BESIDE * (x * x + y * y + z * z);
 }
 
 // How likely it is that light of the children reaches the receiver at all: that its lights emit
@@ -968,8 +981,8 @@ fn light_has_lights(tree: LightTree, index: u32) -> bool {
 
 // The weights of the children of a node. A subtree that is small in codes of the node, and near,
 // counts by the weights of its own children; if it has several, it has at least its near share. A
-// subtree of lights that emit in steps, at the edge of which the receiver is, and a large one that
-// is near count by their own children too.
+// subtree of lights that emit in steps, at the edge of which the receiver is, a large one that is
+// near, and lights along a line that the receiver is beside count by their own children too.
 fn light_weights_ahead(
     tree: LightTree,
     node: ptr<function, LightNode>,
@@ -988,15 +1001,17 @@ fn light_weights_ahead(
         let index = (*node).child_base + k;
         let is_small = light_is_small(node, word, lane);
         let is_doubtful = ((doubtful >> k) & 1u) == 1u;
+        let is_beside = ((doubtful >> (16u + k)) & 1u) == 1u;
         let has_weight = weights.lanes[word][lane] > 0.0 && index < tree.node_count;
-        if (is_small || is_doubtful) && has_weight {
+        if (is_small || is_doubtful || is_beside) && has_weight {
             var child = light_node(tree.nodes + 14u * index);
             let away = child.origin - receiver.p;
             let near = reach + 255.0 / child.inv_scale;
             let is_near = is_small && dot(away, away) < near * near;
             let is_step_or_large = light_is_step(node, word, lane) || child.inner == 16u;
-            if is_near || (is_doubtful && is_step_or_large) {
-                let own = light_trusted_weights(&child, receiver);
+            let is_rough = is_doubtful && is_step_or_large;
+            if is_near || is_rough || (is_beside && child.is_line) {
+                let own = light_weights_of_lines(tree, &child, receiver);
                 let scale = light_weight_scale(own, weights.inv_unit, child.gain / (*node).gain);
                 let weight = light_positive_product(own.total, scale);
                 weights.lanes[word][lane] = min(weight, LIGHT_MAX / 16.0);
@@ -1014,7 +1029,38 @@ fn light_weights_ahead(
     return light_with_least_share(weights);
 }
 
-// The children whose weights are doubtful, a bit each.
+// The weights of the children of a node. If its lights lie along a line, so do those of a child that
+// the receiver is beside, and it counts by the weights of its own children.
+fn light_weights_of_lines(
+    tree: LightTree,
+    node: ptr<function, LightNode>,
+    receiver: LightReceiver,
+) -> LightWeights {
+    var weights = light_trusted_weights(node, receiver);
+    if !(*node).is_line || !(*node).has_rough {
+        return weights;
+    }
+    let doubtful = light_doubtful_children(node, receiver, weights);
+    for (var k = 0u; k < (*node).inner; k++) {
+        let word = k >> 2u;
+        let lane = k & 3u;
+        let index = (*node).child_base + k;
+        let is_beside = ((doubtful >> (16u + k)) & 1u) == 1u;
+        if is_beside && weights.lanes[word][lane] > 0.0 && index < tree.node_count {
+            var child = light_node(tree.nodes + 14u * index);
+            if child.is_line {
+                let own = light_trusted_weights(&child, receiver);
+                let scale = light_weight_scale(own, weights.inv_unit, child.gain / (*node).gain);
+                let weight = light_positive_product(own.total, scale);
+                weights.lanes[word][lane] = min(weight, LIGHT_MAX / 16.0);
+            }
+        }
+    }
+    return light_with_least_share(weights);
+}
+
+// The children whose weights are doubtful, a bit each, and above these those that the receiver is
+// beside.
 fn light_doubtful_children(
     node: ptr<function, LightNode>,
     receiver: LightReceiver,
@@ -1026,7 +1072,9 @@ fn light_doubtful_children(
     for (var word = 0u; 4u * word < (*node).inner; word++) {
         let children = light_children(node, frame, word);
         let is_doubtful = light_is_doubtful(children, weights.lanes[word] * inv_total);
-        let bits = select(vec4<u32>(0u), vec4<u32>(1u, 2u, 4u, 8u), is_doubtful);
+        let is_beside = light_is_beside(children);
+        let bits = select(vec4<u32>(0u), vec4<u32>(1u, 2u, 4u, 8u), is_doubtful)
+            | select(vec4<u32>(0u), vec4<u32>(1u, 2u, 4u, 8u) << vec4<u32>(16u), is_beside);
         doubtful |= (bits.x | bits.y | bits.z | bits.w) << (4u * word);
     }
     return doubtful;

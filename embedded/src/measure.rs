@@ -14,7 +14,7 @@ pub(crate) const SAMPLES: u32 = 1000;
 pub(crate) fn measure<I, O, const N: usize>(
     name: &str,
     inputs: impl Fn(u32) -> I,
-    mut query: impl FnMut(I) -> O,
+    mut query: impl FnMut(&I) -> O,
     words: impl Fn(O) -> [u32; N],
 ) {
     let mut measured = Measured::new();
@@ -23,7 +23,7 @@ pub(crate) fn measure<I, O, const N: usize>(
         let mut input = inputs(i);
         black_box(&mut input);
         let start = machine::ticks();
-        let mut answer = query(input);
+        let mut answer = query(&input);
         black_box(&mut answer);
         let ticks = machine::ticks_since(start);
         measured.add(ticks, &words(answer));

@@ -25,14 +25,14 @@ pub fn tables() {
     measure(
         "alias-sample",
         random,
-        |u| apart2(AliasTable::sample)(&powers, u),
+        |&u| apart2(AliasTable::sample)(&powers, u),
         |s: SampledIndex| [s.index as u32, s.pmf.to_bits(), high(s.u), low(s.u)],
     );
     let axes = flash::axes();
     measure(
         "octahedral-decode",
         |i| axes[i as usize % axes.len()],
-        |axis| apart1(OctahedralVector::decode)(axis),
+        |&axis| apart1(OctahedralVector::decode)(axis),
         |w| w.to_array().map(f32::to_bits),
     );
     machine::end();
@@ -53,13 +53,13 @@ pub fn tree() {
     measure(
         "tree-sample",
         |i| (surface(i), random(i)),
-        |(receiver, u)| apart3(LightBvhRef::sample)(&tree, &receiver, u),
+        |(receiver, u)| apart3(LightBvhRef::sample)(&tree, receiver, *u),
         choice,
     );
     measure(
         "tree-pmf",
         |i| (surface(i), light(i, lights)),
-        |(receiver, light)| apart3(LightBvhRef::pmf)(&tree, &receiver, light),
+        |(receiver, light)| apart3(LightBvhRef::pmf)(&tree, receiver, *light),
         |pmf| [pmf.to_bits()],
     );
     machine::end();
@@ -79,13 +79,13 @@ pub fn sampler() {
     measure(
         "sampler-sample",
         |i| (receiver(i), random(i)),
-        |(ctx, u)| apart3(BvhLightSamplerRef::sample)(&sampler, &ctx, u),
+        |(ctx, u)| apart3(BvhLightSamplerRef::sample)(&sampler, ctx, *u),
         choice,
     );
     measure(
         "sampler-pmf",
         |i| (receiver(i), light(i, lights + 1)),
-        |(ctx, light)| apart3(BvhLightSamplerRef::pmf)(&sampler, &ctx, light),
+        |(ctx, light)| apart3(BvhLightSamplerRef::pmf)(&sampler, ctx, *light),
         |pmf| [pmf.to_bits()],
     );
     machine::end();
@@ -106,9 +106,9 @@ pub fn choices() {
         "four-choices",
         |i| (receiver(i), random(i)),
         |(ctx, u)| {
-            sampler.set_at(&ctx, 4, &mut here);
+            sampler.set_at(ctx, 4, &mut here);
             let mut lights = [u32::MAX; 16];
-            for (place, light) in lights.chunks_exact_mut(4).zip(here.samples(u)) {
+            for (place, light) in lights.chunks_exact_mut(4).zip(here.samples(*u)) {
                 place.copy_from_slice(&choice(Some(light)));
             }
             lights
@@ -130,19 +130,19 @@ pub fn lights() {
             let light = &lights[i as usize % lights.len()];
             (light, receiver(i), random_point(i))
         },
-        |(light, ctx, u)| light.light().and_then(|light| light.sample_li(&ctx, u)),
+        |(light, ctx, u)| light.light().and_then(|light| light.sample_li(ctx, *u)),
         arrival,
     );
     let sky = flash::sky();
-    measure("sky-sample", random_point, |u| sky.sample(u), sky_direction);
+    measure("sky-sample", random_point, |&u| sky.sample(u), sky_direction);
     let axes = flash::axes();
     let axis = |i: u32| axes[i as usize % axes.len()].decode();
-    measure("sky-pdf", axis, |wi| sky.pdf(wi), |pdf| [pdf.to_bits()]);
+    measure("sky-pdf", axis, |&wi| sky.pdf(wi), |pdf| [pdf.to_bits()]);
     let web = flash::web();
     measure(
         "web",
         axis,
-        |w| apart2(PhotometricWebRef::toward)(&web, w),
+        |&w| apart2(PhotometricWebRef::toward)(&web, w),
         |candelas| [candelas.to_bits()],
     );
     machine::end();
@@ -150,7 +150,7 @@ pub fn lights() {
 
 /// What a measurement costs itself.
 fn nothing() {
-    measure("nothing", |i| i, |i| i, |i| [i]);
+    measure("nothing", |i| i, |&i| i, |i| [i]);
 }
 
 /// Position and normal of the `i`th point on a surface.

@@ -5,6 +5,7 @@ use light_math::glam::Vec2;
 ///
 /// # Source
 /// The finaliser of MurmurHash3, with shifts by a whole word, which 32-bit processors have for free.
+#[inline(never)]
 pub(crate) fn random(i: u32) -> u64 {
     let mut z = u64::from(i)
         .wrapping_add(1)

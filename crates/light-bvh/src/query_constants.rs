@@ -3,7 +3,7 @@
 use crate::cut::grow::{MAX_REVISION, MAX_STEP_REVISION, MAX_STEP_RISE};
 use crate::cut::light_cut;
 use crate::importance::child_importance::{
-    BOX_EMISSION, DOUBT, GROUP_BY_POSITION, NEARNESS, RAMP_BY_POSITION, STEP_EDGE, UNIT,
+    BESIDE, BOX_EMISSION, DOUBT, GROUP_BY_POSITION, NEARNESS, RAMP_BY_POSITION, STEP_EDGE, UNIT,
 };
 use crate::importance::child_view::{DISTANCE, ROUND_OFF};
 use crate::importance::glossy::{self, MIN_ALPHA, MIN_COS, MIN_DIFFUSE, MIN_HALF_SQ, WIDENING};
@@ -20,8 +20,9 @@ use crate::query::weights::{LEAST_SHARE, LEAST_TOTAL, MAX_ZOOM, MOST};
 
 /// The numbers in the importance of a group of lights, by name, for ports of the queries to another
 /// language. They change with the estimate: a port takes them from here.
-pub const QUERY_CONSTANTS: [(&str, f32); 38] = [
+pub const QUERY_CONSTANTS: [(&str, f32); 39] = [
     ("BENT", BENT),
+    ("BESIDE", BESIDE),
     ("BOX_EMISSION", BOX_EMISSION),
     ("CUT_THRESHOLD", light_cut::THRESHOLD),
     ("DISTANCE", DISTANCE),

@@ -118,6 +118,9 @@ fn sets(sky: &[LightExtent]) -> Vec<(SetKind, usize, &[LightExtent])> {
     }
     // Slanted sheets.
     sets.push((SetKind::Place(Family::Tribune), 10_000, &[]));
+    // Opposed beams, and lines of lights.
+    sets.push((SetKind::Place(Family::WallLamps), 10_000, &[]));
+    sets.push((SetKind::Place(Family::StreetLamps), 10_000, &[]));
     // Subtrees that are points.
     sets.push((SetKind::FarLamp, 100, &[]));
     sets.push((SetKind::FarLamp, 10_000, &[]));

@@ -16,6 +16,8 @@ pub(super) struct Board {
     pub(super) target: &'static str,
     emulator: &'static str,
     arguments: &'static [&'static str],
+    /// What its compiler is told besides.
+    flags: &'static str,
     /// Nanoseconds that the emulator lets pass for an instruction, as a power of two. Fixed, so
     /// that clocks count instructions.
     shift: u32,
@@ -30,6 +32,7 @@ pub(super) const BOARDS: [Board; 2] = [
         target: "thumbv7em-none-eabihf",
         emulator: "qemu-system-arm",
         arguments: &["-M", "mps2-an386", "-cpu", "cortex-m4"],
+        flags: "",
         // A tick of the timer at 25 MHz is less than an instruction of 64 ns.
         shift: 6,
         tick: 40,
@@ -39,6 +42,8 @@ pub(super) const BOARDS: [Board; 2] = [
         target: "riscv32imac-unknown-none-elf",
         emulator: "qemu-system-riscv32",
         arguments: &["-M", "virt", "-bios", "none"],
+        // The linker makes far calls near, as C compilers ask it to.
+        flags: " -Ctarget-feature=+relax",
         shift: 0,
         tick: 1,
     },
@@ -107,6 +112,7 @@ impl Builder {
         let target = self.board.target;
         // Names of this form say the crate of every function.
         let mut flags = "-Csymbol-mangling-version=v0".to_owned();
+        flags += self.board.flags;
         if let Some(linker) = &self.linker {
             flags += &format!(" -Clinker={}", linker.display());
         }

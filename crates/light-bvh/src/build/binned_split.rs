@@ -265,7 +265,7 @@ mod tests {
             })
             .collect();
         let tree = LightBvh::build(&rooms).expect("valid lights");
-        let counts: Vec<_> = tree.nodes.iter().map(|n| (n.count, n.inner)).collect();
+        let counts: Vec<_> = tree.nodes.iter().map(|n| (n.children(), n.inner)).collect();
         assert_eq!(counts, [(2, 2), (10, 0), (10, 0)]);
     }
 }

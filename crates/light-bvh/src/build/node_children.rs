@@ -219,8 +219,8 @@ mod tests {
                 tree.expect("valid lights").nodes[0]
             };
             let [near, far] = [root(4.0), root(1000.0)];
-            assert_eq!((near.count, near.inner), (16, 16), "{mode:?}: near");
-            assert_eq!((far.count, far.inner), (2, 2), "{mode:?}: far");
+            assert_eq!((near.children(), near.inner), (16, 16), "{mode:?}: near");
+            assert_eq!((far.children(), far.inner), (2, 2), "{mode:?}: far");
         }
     }
 
@@ -240,7 +240,7 @@ mod tests {
         let nodes = |places: &[f32]| {
             let lights: Vec<_> = places.iter().map(|&x| point(x)).collect();
             let tree = LightBvh::build(&lights).expect("valid lights");
-            let counts = tree.nodes.iter().map(|node| (node.count, node.inner));
+            let counts = tree.nodes.iter().map(|node| (node.children(), node.inner));
             counts.collect::<Vec<_>>()
         };
         assert_eq!(nodes(&[0.0, 0.4, 1.0, 1e4]), [(2, 1), (3, 0)], "far");
@@ -268,7 +268,7 @@ mod tests {
                 ..LightBvhOptions::default()
             };
             let tree = LightBvh::build_with(&lights, &options).expect("valid lights");
-            let counts = tree.nodes.iter().map(|node| (node.count, node.inner));
+            let counts = tree.nodes.iter().map(|node| (node.children(), node.inner));
             counts.collect::<Vec<_>>()
         };
         for mode in [BuildMode::Binned, BuildMode::Morton] {

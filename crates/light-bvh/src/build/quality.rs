@@ -35,7 +35,7 @@ struct GroupSpread {
 /// The group below node `index`. Recursive, as deep as the tree at most.
 fn spread_of(nodes: &[WideNode], index: usize, steps: &mut Steps) -> GroupSpread {
     let node = &nodes[index];
-    let slots = || 0..usize::from(node.count);
+    let slots = || 0..node.children();
     let weight = |k: usize| decode_power(node.power[k]);
     let total: f32 = slots().map(weight).sum();
     if !(total > 0.0) {

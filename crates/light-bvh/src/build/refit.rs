@@ -90,7 +90,7 @@ impl<L: LeafMoments> Filling<'_, L> {
         }
         let inner = usize::from(node.inner);
         let mut moments = [Moments::NOTHING; WIDTH];
-        let own = usize::from(node.count) - inner;
+        let own = node.children() - inner;
         for (own, &light) in moments[inner..].iter_mut().zip(&lights[..own]) {
             *own = self.lights.moments(light);
         }
@@ -156,7 +156,7 @@ struct Batch<'a> {
 impl Batch<'_> {
     /// Encodes a subtree of which all lights are in the batch, as [`Filling::subtree`] does.
     fn subtree(&self, node: &mut WideNode, below: &mut [WideNode], base: usize) -> Moments {
-        let (inner, count) = (usize::from(node.inner), usize::from(node.count));
+        let (inner, count) = (usize::from(node.inner), node.children());
         let child_base = node.child_base as usize;
         let mut moments = [Moments::NOTHING; WIDTH];
         let own = &self.moments[node.light_base as usize - self.first..][..count - inner];
@@ -171,7 +171,5 @@ impl Batch<'_> {
 
 /// Encodes the first of `children`, as many as `node` has, and returns the moments of all of them.
 fn encode(node: &mut WideNode, children: &[Moments; WIDTH]) -> Moments {
-    let children = &children[..usize::from(node.count)];
-    node.encode_children(children);
-    Moments::join(children)
+    node.encode_children(&children[..node.children()])
 }

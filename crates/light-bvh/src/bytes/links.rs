@@ -13,7 +13,7 @@ pub(super) fn are_links_sound(tree: &LightBvhRef<'_>) -> bool {
             return false;
         }
         children += usize::from(node.inner);
-        lights += usize::from(node.count - node.inner);
+        lights += node.children() - usize::from(node.inner);
     }
     // Each child names its parent and each light its place, so that none is counted twice.
     let placed = slots.iter().filter(|&&slot| slot != NOWHERE).count();
@@ -33,7 +33,7 @@ pub(super) fn are_groups_sound(tree: &LightBvhRef<'_>) -> bool {
 }
 
 fn has_sound_children(tree: &LightBvhRef<'_>, index: usize, node: &WideNode) -> bool {
-    let (inner, count) = (usize::from(node.inner), usize::from(node.count));
+    let (inner, count) = (usize::from(node.inner), node.children());
     if inner > count || count > WIDTH {
         return false;
     }

@@ -39,6 +39,10 @@ pub(crate) const STEP_EDGE: f32 = 4.87;
 /// off by more is looked into. Chosen by V and by time: see `docs/light-bvh-study.md`.
 pub(crate) const DOUBT: f32 = 0.2;
 
+/// How many times the squared distance from a box its squared width is at least, where a receiver is
+/// beside it. Chosen by V: see `docs/light-bvh-study.md`.
+pub(crate) const BESIDE: f32 = 4.0;
+
 /// How many times its variance the square of an emission or of a height is at least, and the squared
 /// distance the squared width, where the lights of a group may count by their powers alone. Chosen
 /// by V and by time: see `docs/light-bvh-study.md`.
@@ -155,6 +159,18 @@ impl ChildView {
         let doubt = self.step.select(share * (root + beyond), width_sq);
         let unit = self.step.select(DOUBT * (root - beyond), self.dist_sq);
         share * doubt - DOUBT * unit
+    }
+
+    /// Above 0 where the receiver is nearer to the box than half of its width: the middle of lights
+    /// along a line then tells little.
+    #[inline(always)]
+    pub(crate) fn beside(&self) -> f32 {
+        let mut away_sq = 0.0;
+        for (mean, half) in self.mean.iter().zip(&self.extent) {
+            let away = larger(0.0, mean.abs() - half);
+            away_sq += away * away;
+        }
+        self.width_sq() - BESIDE * away_sq
     }
 
     /// How likely it is that some light of the child is emitted toward the receiver's position:

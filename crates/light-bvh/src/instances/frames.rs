@@ -95,7 +95,7 @@ impl Prefetch for &Frames {
             return;
         }
         tree.prefetch_below(node);
-        if self.is_in_tree_order && node.inner < node.count {
+        if self.is_in_tree_order && usize::from(node.inner) < node.children() {
             prefetch::<WIDTH, _>(&self.rows, node.light_base);
         }
     }

@@ -17,6 +17,14 @@ const LARGEST_DETERMINANT: f32 = 0.05;
 /// The least number of lights of such a sheet: few are correlated by chance.
 const LEAST_LIGHTS: u32 = 16;
 
+/// The least number of lights along a line: a pair always is, and three often are.
+const LEAST_ALONG_LINE: u32 = 4;
+
+/// The least sum of squares of the covariance of lights along a line, as a share of the squared sum of
+/// variances: 1 of a line, a half of an evenly filled square. Chosen by V and by time: see
+/// `docs/light-bvh-study.md`.
+const ALONG_LINE: f32 = 0.98;
+
 /// The least number of lights of a large group. Chosen by V and by instructions: see
 /// `docs/light-bvh-study.md`.
 const LARGE_LIGHTS: u32 = 1024;
@@ -82,6 +90,13 @@ impl Covariance {
         self.lights >= LARGE_LIGHTS
     }
 
+    /// Whether these are several lights along a line, of any direction.
+    pub(crate) fn is_line(&self) -> bool {
+        let trace = self.variance.element_sum();
+        let squares = self.variance.length_squared() + 2.0 * self.mixed.length_squared();
+        self.lights >= LEAST_ALONG_LINE && trace > 0.0 && squares >= ALONG_LINE * (trace * trace)
+    }
+
     /// The code of a thin slanted sheet of lights that face about the same way, if it is one.
     pub(crate) fn sheet(&self, axis: Vec3) -> Option<SheetCode> {
         let length_sq = axis.length_squared();
@@ -140,6 +155,31 @@ mod tests {
         assert_eq!(few.sheet(Vec3::Y), None, "few lights");
         let level = of_plane(Vec3::Z);
         assert_eq!(level.sheet(Vec3::X), None, "a plane along axes");
+    }
+
+    /// Of `lights` points along `axis`, each `aside` from it in another direction.
+    fn of_row(lights: u16, axis: Vec3, aside: f32) -> Covariance {
+        let mut covariance = Covariance::ZERO;
+        let (across, up) = axis.any_orthonormal_pair();
+        for i in 0..lights {
+            let t = 2.0 * (f32::from(i) + 0.5) / f32::from(lights) - 1.0;
+            let (sin, cos) = (float::sin(3.0 * t), float::cos(3.0 * t));
+            let place = axis * t + (across * sin + up * cos) * aside;
+            covariance.add(1.0 / f32::from(lights), &POINT, 1.0, place);
+        }
+        covariance
+    }
+
+    #[test]
+    fn rows_of_any_direction_are_lines() {
+        for axis in [Vec3::X, Vec3::new(0.6, 0.0, -0.8), Vec3::ONE.normalize()] {
+            assert!(of_row(16, axis, 0.0).is_line(), "{axis}");
+            assert!(of_row(16, axis, 0.05).is_line(), "{axis}, a little bent");
+            assert!(!of_row(16, axis, 0.3).is_line(), "{axis}, bent");
+            assert!(!of_row(3, axis, 0.0).is_line(), "{axis}, three");
+        }
+        assert!(!of_plane(Vec3::Z).is_line(), "a plane");
+        assert!(!of_row(16, Vec3::ZERO, 0.0).is_line(), "one place");
     }
 
     #[test]

@@ -17,13 +17,16 @@ impl WideNode {
         node
     }
 
-    /// Encodes the moments of the children, at most as many as the node has slots. Their places,
-    /// and how many are nodes, do not change.
-    pub(crate) fn encode_children(&mut self, children: &[Moments]) {
+    /// Encodes the moments of the children, at most as many as the node has slots, and returns those
+    /// of all together. Their places, and how many are nodes, do not change.
+    pub(crate) fn encode_children(&mut self, children: &[Moments]) -> Moments {
         dispatch(EncodeChildren {
             node: self,
             children,
         });
+        let all = Moments::join(children);
+        self.set_line(all.is_line());
+        all
     }
 
     #[inline(always)]
@@ -53,7 +56,11 @@ impl WideNode {
         self.clear_unlit(&children);
         self.set_sheets(all);
         self.set_opposed(all);
-        if self.subtrees().any(|k| self.is_rough(k)) || self.is_large(all) {
+        let subtrees = &all[..self.subtrees().end.min(all.len())];
+        if self.subtrees().any(|k| self.is_rough(k))
+            || subtrees.iter().any(Moments::is_line)
+            || self.is_large(all)
+        {
             self.gain |= HAS_ROUGH;
         }
     }

@@ -173,6 +173,11 @@ impl Moments {
         self.shape != Shape::Steps && self.covariance.is_large()
     }
 
+    /// Whether it is a group of lights along a line.
+    pub(crate) fn is_line(&self) -> bool {
+        self.covariance.is_line()
+    }
+
     /// Whether the lights of several groups face about the same way, all together.
     pub(crate) fn face_alike(parts: &[Self]) -> bool {
         let power: f32 = parts.iter().map(|p| p.power).sum();

@@ -40,7 +40,7 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// | 212 | `light_base` | |
 /// | 216 | `gain` | upper half of an `f32`: the largest share of a child; its top bits: two flags |
 /// | 218 | `inner` | |
-/// | 219 | `count` | children in all |
+/// | 219 | `count` | children in all; bit 7: its lights lie along a line |
 /// | 220 | `parent` | `16 * node + child`; all ones at the root |
 ///
 /// The box holds the child's lights. A child that emits to both sides alike has offset 0 and its
@@ -49,10 +49,10 @@ pub(crate) const NOWHERE: u32 = u32::MAX;
 /// bits of exponent and three of mantissa, less their value for 0.
 ///
 /// The share of a child is that of the tree's power. It is below 2, so that two bits of `gain` are
-/// free: bit 15 is set where a child is rare, a sheet or a group of opposed beams, bit 14 where a subtree is rough, so that its own node
-/// may tell more. It is small, its extents are 1 in codes, or at most 15 where its power is at most a
-/// 1024th of the largest; or its lights emit in steps; or they are many, of a node whose lights all
-/// face about the same way.
+/// free: bit 15 is set where a child is rare, a sheet or a group of opposed beams, bit 14 where a
+/// subtree is rough, so that its own node may tell more. It is small, its extents are 1 in codes, or
+/// at most 15 where its power is at most a 1024th of the largest; or its lights emit in steps; or they
+/// lie along a line; or they are many, of a node whose lights all face about the same way.
 ///
 /// A group of flat lights that lie in a thin slanted sheet has offset 0, and the byte tells instead
 /// how positions along the axes are correlated: as `63 + 25 a + 5 b + c`, of which `a`, `b` and `c`
@@ -97,8 +97,12 @@ pub(crate) const BOTH_SIDES: i8 = i8::MIN;
 pub(crate) const HAS_RARE: u16 = 1 << 15;
 
 /// The bit of [`WideNode::gain`] that is set where a subtree is rough: small in codes of the node, of
-/// lights that emit in steps, or of many in a node whose lights face about the same way.
+/// lights that emit in steps or lie along a line, or of many in a node whose lights face about the same
+/// way.
 pub(crate) const HAS_ROUGH: u16 = 1 << 14;
+
+/// The bit of [`WideNode::count`] that is set where the lights of a node lie along a line.
+const ALONG_LINE: u8 = 1 << 7;
 
 /// The largest extent of a faint subtree that is small. All bits are set: the bits of three extents
 /// together are above it where one of them is.
@@ -158,6 +162,25 @@ impl WideNode {
             let half = of(&self.extent);
             (k, Aabb::new(mean - half, mean + half))
         })
+    }
+
+    /// How many children there are.
+    #[inline]
+    #[must_use]
+    pub const fn children(&self) -> usize {
+        (self.count & !ALONG_LINE) as usize
+    }
+
+    /// Whether the lights lie along a line, which a middle and a box describe badly from nearby.
+    #[inline]
+    pub(crate) const fn is_line(&self) -> bool {
+        self.count & ALONG_LINE != 0
+    }
+
+    /// Sets whether the lights lie along a line.
+    #[cfg(feature = "alloc")]
+    pub(crate) const fn set_line(&mut self, is_line: bool) {
+        self.count = self.children() as u8 | if is_line { ALONG_LINE } else { 0 };
     }
 
     /// The children that are nodes.

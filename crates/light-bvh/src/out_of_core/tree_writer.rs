@@ -186,9 +186,8 @@ impl<'o, W: Write + Seek> TreeWriter<'o, W> {
                 parent: open.place.parent,
                 ..WideNode::EMPTY
             };
-            node.encode_children(&open.moments);
+            moments = node.encode_children(&open.moments);
             self.late.push((open.place.index, node));
-            moments = Moments::join(&open.moments);
         }
     }
 
@@ -208,7 +207,7 @@ impl<'o, W: Write + Seek> TreeWriter<'o, W> {
                 _ if k == 0 => root.parent,
                 slot => low_word(index(slot / WIDTH) * WIDTH + slot % WIDTH),
             };
-            let own = usize::from(node.inner)..usize::from(node.count);
+            let own = usize::from(node.inner)..node.children();
             for (child, &light) in own.zip(&self.order[node.light_base as usize..]) {
                 self.slots[light as usize] = low_word(index(k) * WIDTH + child);
             }

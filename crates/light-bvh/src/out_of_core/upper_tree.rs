@@ -23,7 +23,7 @@ impl UpperTree {
     }
 
     fn below(&self, node: &WideNode, depth: usize, each: &mut impl FnMut(usize, usize)) {
-        let (inner, count) = (usize::from(node.inner), usize::from(node.count));
+        let (inner, count) = (usize::from(node.inner), node.children());
         for child in &self.0[node.child_base as usize..][..inner] {
             self.below(child, depth + 1, each);
         }

@@ -66,7 +66,7 @@ impl<F: FnMut(LightId, f32)> Query for Pass<'_, '_, F> {
                 continue;
             }
             let weights = self.tree.weights(index, node, receiver);
-            for child in 0..usize::from(node.count) {
+            for child in 0..node.children() {
                 let pmf = positive_product(pmf, weights.probability(child));
                 match self.tree.child(node, child) {
                     Child::Entry(entry) if pmf > 0.0 => {

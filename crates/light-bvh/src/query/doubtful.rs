@@ -1,4 +1,4 @@
-//! Which subtrees a receiver is at the edge of, or near.
+//! Which subtrees a receiver is at the edge of, near, or beside.
 
 use light_math::glam::Vec3;
 
@@ -8,7 +8,8 @@ use crate::node::wide_node::{WIDTH, WideNode};
 use crate::query::weights::Weights;
 use crate::simd::VectorWork;
 
-/// The children whose weight may be off by more than `DOUBT`, a bit each.
+/// The children whose weight may be off by more than `DOUBT`, a bit each, and above these those that
+/// the receiver is [beside](ChildView::beside).
 pub(crate) struct Doubtful<'a> {
     pub(crate) node: &'a WideNode,
     pub(crate) position: Vec3,
@@ -54,6 +55,6 @@ impl Doubtful<'_> {
     #[inline(always)]
     fn bit(&self, child: &ChildView, k: usize, inv_total: f32) -> u32 {
         let doubt = child.doubt(self.weights.lanes[k] * inv_total);
-        u32::from(doubt > 0.0) << k
+        u32::from(doubt > 0.0) << k | u32::from(child.beside() > 0.0) << (WIDTH + k)
     }
 }

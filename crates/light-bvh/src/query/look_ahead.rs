@@ -1,12 +1,12 @@
 //! Subtrees whose own nodes tell more than their codes: those that are small in codes of their node
-//! and those of many lights, where a receiver is near them, and those of lights that emit in steps,
-//! at their edge.
+//! and those of many lights, where a receiver is near them, those of lights along a line, beside it,
+//! and those of lights that emit in steps, at their edge.
 
 use light_math::float::positive_product;
 use light_math::glam::Vec3;
 
 use crate::importance::receiver::Receiver;
-use crate::node::wide_node::WideNode;
+use crate::node::wide_node::{WIDTH, WideNode};
 use crate::query::bvh_ref::LightBvhRef;
 use crate::query::doubtful::Doubtful;
 use crate::query::weights::{LARGEST_WEIGHT, Weights, total};
@@ -25,8 +25,8 @@ pub(crate) const NEAR_SHARE: f32 = 0.125;
 
 impl LightBvhRef<'_> {
     /// Lets each child of `node` that it describes coarsely for `receiver` count by the weights of its
-    /// own children: a small or a large subtree that is near, and one at whose edge of emission the
-    /// receiver is.
+    /// own children: a small or a large subtree that is near, lights along a line that the receiver is
+    /// beside, and a subtree at whose edge of emission it is.
     #[inline(always)]
     pub(crate) fn look_ahead<R: Receiver>(
         &self,
@@ -59,11 +59,12 @@ impl LightBvhRef<'_> {
                 node.is_small(k) && is_near(node, child, receiver.position(), receiver.reach());
             let is_doubtful =
                 doubtful >> k & 1 == 1 && (node.is_step(k) || child.has_subtrees_only());
-            if (is_near || is_doubtful) && weights.lanes[k] > 0.0 {
+            let is_beside = doubtful >> (WIDTH + k) & 1 == 1 && child.is_line();
+            if (is_near || is_doubtful || is_beside) && weights.lanes[k] > 0.0 {
                 let gain = child.gain() / node.gain();
                 let own = self.total_weight(index, child, receiver, (weights.inv_unit, gain));
                 weights.lanes[k] = own.min(LARGEST_WEIGHT);
-                groups |= u32::from(is_near && child.count > 1 && own > 0.0) << k;
+                groups |= u32::from(is_near && child.children() > 1 && own > 0.0) << k;
             }
         }
         let least = (total(&weights.lanes) * NEAR_SHARE).min(LARGEST_WEIGHT);
@@ -88,7 +89,40 @@ impl LightBvhRef<'_> {
     ) -> f32 {
         let mut weights = dispatch(NodeWeights { node, receiver });
         self.leave_out(index, &mut weights);
+        if node.is_line() && node.has_rough() {
+            self.look_into_lines(node, receiver, &mut weights);
+        }
         positive_product(weights.total, weights.scale_to(inv_unit, gain))
+    }
+
+    /// Lets each child of `node` whose lights lie along a line, and that the receiver is beside, count by
+    /// the weights of its own children. Of a line the sum of its parts is as far off as it is itself where
+    /// they are long.
+    #[cold]
+    #[inline(never)]
+    fn look_into_lines<R: Receiver>(&self, node: &WideNode, receiver: &R, weights: &mut Weights) {
+        let doubtful = dispatch(Doubtful {
+            node,
+            position: receiver.position(),
+            weights,
+        });
+        for k in node.subtrees() {
+            let index = node.child_base as usize + k;
+            let Some(child) = self.nodes().get(index) else {
+                return;
+            };
+            let is_beside = doubtful >> (WIDTH + k) & 1 == 1 && child.is_line();
+            if is_beside && weights.lanes[k] > 0.0 {
+                let mut own = dispatch(NodeWeights {
+                    node: child,
+                    receiver,
+                });
+                self.leave_out(index, &mut own);
+                let scale = own.scale_to(weights.inv_unit, child.gain() / node.gain());
+                weights.lanes[k] = positive_product(own.total, scale).min(LARGEST_WEIGHT);
+            }
+        }
+        weights.raise_to_least_share();
     }
 }
 

@@ -50,6 +50,7 @@ mod reference_faults;
 mod reference_properties;
 #[cfg(feature = "std")]
 mod refit;
+mod rows_of_lamps;
 mod support;
 #[cfg(all(feature = "std", feature = "rayon"))]
 mod threads;

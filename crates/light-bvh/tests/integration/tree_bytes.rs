@@ -179,7 +179,9 @@ fn damaged_links_are_refused() {
             // nowhere.
             Some(at) => match tree.view().nodes()[at / 224] {
                 node if (208..212).contains(&(at % 224)) => node.inner > 0,
-                node if (212..216).contains(&(at % 224)) => node.inner < node.count,
+                node if (212..216).contains(&(at % 224)) => {
+                    usize::from(node.inner) < node.children()
+                }
                 _ => at % 224 >= 218,
             },
             None => at >= HEADER,

@@ -93,6 +93,8 @@ families! {
     Sizes, "sizes", scatter::sizes;
     /// Lights and receivers near one plane.
     Grazing, "grazing", scatter::grazing;
+    /// Lamps in one row, along a street or up a slope.
+    StreetLamps, "street-lamps", streets::street_lamps;
 }
 
 impl Family {

@@ -4,7 +4,7 @@ use super::place::Place;
 use crate::random::Random;
 
 /// Half edges of a panel that shines down.
-fn down(half_x: f32, half_y: f32) -> [Vec3; 2] {
+pub(super) fn down(half_x: f32, half_y: f32) -> [Vec3; 2] {
     [Vec3::X * half_x, Vec3::NEG_Y * half_y]
 }
 

@@ -2,6 +2,7 @@ use glam::Vec3;
 use light_math::float;
 
 use super::place::Place;
+use super::rooms::down;
 use crate::random::Random;
 
 /// Windows on two facades that face each other; receivers on the road and on the facades.
@@ -141,5 +142,39 @@ pub(super) fn wall_lamps(r: &mut Random, place: &mut Place) {
         } else {
             place.point(Vec3::new(x, y + r.unit() * street, 0.0), Vec3::Z);
         }
+    }
+}
+
+pub(super) fn street_lamps(r: &mut Random, place: &mut Place) {
+    let pitch = r.between(2.0, 30.0);
+    let height = pitch * r.between(0.15, 0.4);
+    let slope = [0.0, r.between(0.2, 0.7)][r.below(2)];
+    let bend = r.between(0.0, 0.3);
+    let uneven = r.between(0.0, 0.3);
+    let (cone, rim) = (r.between(50.0, 80.0), r.between(0.1, 0.9));
+    let panels = r.unit() < 0.3;
+    let spacing = if panels { 0.5 * pitch } else { pitch };
+    let length = place.n() as f32 * spacing;
+    // Where the row is, so far along it.
+    let at = |s: f32| {
+        let aside = 0.1 * bend * length * float::sin(3.0 * s / length);
+        Vec3::new(s, aside, slope * s)
+    };
+    let mut lamps = 0;
+    while place.wants_lights() {
+        let s = pitch * (lamps as f32 + uneven * r.unit());
+        lamps += 1;
+        let p = at(s) + Vec3::Z * height;
+        if panels {
+            place.panel(p, down(0.02 * pitch, 0.1 * pitch), 10.0);
+        } else {
+            place.spot(p, p - Vec3::Z, cone, rim, 100.0);
+        }
+    }
+    while place.wants_points() {
+        let s = length * r.unit();
+        let aside = 0.5 * height * (r.unit() - 0.5);
+        let n = Vec3::new(-slope, 0.0, 1.0).normalize();
+        place.point(at(s) + Vec3::Y * aside, n);
     }
 }
