@@ -23,7 +23,7 @@ const LEAST_ALONG_LINE: u32 = 4;
 /// The least sum of squares of the covariance of lights along a line, as a share of the squared sum of
 /// variances: 1 of a line, a half of an evenly filled square. Chosen by V and by time: see
 /// `docs/light-bvh-study.md`.
-const ALONG_LINE: f32 = 0.98;
+const ALONG_LINE: f32 = 0.99;
 
 /// The least number of lights of a large group. Chosen by V and by instructions: see
 /// `docs/light-bvh-study.md`.
