@@ -57,6 +57,7 @@ const LIGHT_HIT_ERROR: f32 = 4.7683716e-7;
 const LIGHT_LEAST_COSINE: f32 = 0.01;
 const LIGHT_LEAST_DENSITY: f32 = 0.15915494;
 const LIGHT_OWN_ERROR: f32 = 9.536743e-7;
+const LIGHT_PARALLEL: f32 = 0.001;
 const LIGHT_SMALL_BOUND: f32 = 0.00059400004;
 const LIGHT_SMALL_SOLID_ANGLE: f32 = 0.0003;
 const LIGHT_SPHERE_ERROR: f32 = 4.7683716e-7;
@@ -238,6 +239,11 @@ struct LightReceiver {
     cos_o: f32,
     alpha: f32,
     diffuse: f32,
+}
+
+// Whether it is a point of a surface.
+fn light_has_normal(receiver: LightReceiver) -> bool {
+    return receiver.kind <= LIGHT_GLOSSY;
 }
 
 // A point of a surface that light reaches from the side of its normal n, of any length. Without a
@@ -2530,13 +2536,23 @@ fn light_rectangle(corner: vec3<f32>, x: vec3<f32>, y: vec3<f32>) -> LightRectan
     return LightRectangle(corner, x, y, normalize(cross(normalize(x), normalize(y))));
 }
 
+// Whether the receiver may be a point of the plane through `on` with the unit normal `n`, wherever
+// rounding has put it. Nothing in a plane lights it.
+fn light_is_in_plane(receiver: LightReceiver, on: vec3<f32>, n: vec3<f32>) -> bool {
+    let size = max(abs(on), abs(receiver.p));
+    let error = LIGHT_OWN_ERROR * max(max(size.x, size.y), size.z);
+    let across = cross(receiver.n, n);
+    let is_parallel = dot(across, across) <= LIGHT_PARALLEL * LIGHT_PARALLEL;
+    return light_has_normal(receiver) && is_parallel && abs(dot(receiver.p - on, n)) <= error;
+}
+
 fn light_triangle_sample(
     t: LightTriangle,
     receiver: LightReceiver,
     u: vec2<f32>,
 ) -> LightShapeSample {
     var found: LightShapeSample;
-    if t.inv_area == 0.0 {
+    if t.inv_area == 0.0 || light_is_in_plane(receiver, t.p[0], t.n) {
         return found;
     }
     let seen = light_triangle_seen(t, receiver.p);
@@ -2564,7 +2580,8 @@ fn light_triangle_sample(
 
 fn light_triangle_pdf(t: LightTriangle, receiver: LightReceiver, wi: vec3<f32>) -> f32 {
     let b = light_triangle_hit(t, receiver.p, wi);
-    if t.inv_area == 0.0 || all(b == vec3<f32>(0.0)) {
+    if t.inv_area == 0.0 || all(b == vec3<f32>(0.0))
+        || light_is_in_plane(receiver, t.p[0], t.n) {
         return 0.0;
     }
     let seen = light_triangle_seen(t, receiver.p);
@@ -2645,6 +2662,9 @@ fn light_rectangle_sample(
     u: vec2<f32>,
 ) -> LightShapeSample {
     var found: LightShapeSample;
+    if light_is_in_plane(receiver, s.corner, s.n) {
+        return found;
+    }
     let seen = light_rectangle_seen(s, receiver.p);
     var place = u;
     var density = 1.0;
@@ -2670,7 +2690,7 @@ fn light_rectangle_sample(
 
 fn light_rectangle_pdf(s: LightRectangle, receiver: LightReceiver, wi: vec3<f32>) -> f32 {
     let hit = light_rectangle_hit(s, receiver.p, wi);
-    if hit.z == 0.0 {
+    if hit.z == 0.0 || light_is_in_plane(receiver, s.corner, s.n) {
         return 0.0;
     }
     let seen = light_rectangle_seen(s, receiver.p);
@@ -2743,8 +2763,7 @@ fn light_receiver_cosines(
     d01: vec3<f32>,
     d11: vec3<f32>,
 ) -> vec4<f32> {
-    if receiver.kind != LIGHT_SURFACE && receiver.kind != LIGHT_TWO_SIDED
-        && receiver.kind != LIGHT_GLOSSY {
+    if !light_has_normal(receiver) {
         return vec4<f32>(1.0);
     }
     let n = receiver.n;
@@ -2859,8 +2878,7 @@ fn light_sphere_cone(s: LightSphere, receiver: LightReceiver) -> LightSphereCone
 
 // Whether the receiver may be a point of the sphere, wherever rounding has put it.
 fn light_sphere_is_own(s: LightSphere, receiver: LightReceiver) -> bool {
-    if receiver.kind != LIGHT_SURFACE && receiver.kind != LIGHT_TWO_SIDED
-        && receiver.kind != LIGHT_GLOSSY {
+    if !light_has_normal(receiver) {
         return false;
     }
     let error = vec3<f32>(LIGHT_OWN_ERROR * light_sphere_size(s));

@@ -23,7 +23,7 @@ pub(super) fn is_within_rounding(wi: Vec3, to_light: Vec3, at: &SurfacePoint) ->
 
 /// The sine below which a receiver's normal is that of a flat surface: some are stored with few
 /// digits.
-const PARALLEL: f32 = 1e-3;
+pub(super) const PARALLEL: f32 = 1e-3;
 
 /// Whether the receiver may be a point of the plane through `on` with the unit normal `n`, wherever
 /// rounding has put it: by its place and its normal. Nothing in a plane lights it, but from 1e-8
