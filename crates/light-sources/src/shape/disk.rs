@@ -103,6 +103,28 @@ impl Disk {
             uv: Vec2::new(u, v.clamp(0.0, 1.0)),
         }
     }
+
+    /// Where a ray meets the disk, whose origin may be off by `error`.
+    fn met(&self, origin: Vec3, direction: Vec3, error: f32) -> Option<SurfacePoint> {
+        let o = self.transform.inverse_point(origin);
+        let d = self.transform.inverse_vector(direction);
+        let t = -o.z / d.z;
+        if !(t > 0.0 && t.is_finite()) {
+            return None;
+        }
+        let local = o.truncate() + d.truncate() * t;
+        let magnitude = o.length() + t + origin.length();
+        let slack = hit_slack(magnitude, error, d.z).min(0.5 * self.radius);
+        let r = local.length();
+        let is_hit = r <= self.radius + slack && r >= self.inner_radius - slack;
+        let on_disk = r.clamp(self.inner_radius, self.radius);
+        let local = if r == on_disk {
+            local
+        } else {
+            local.try_normalize().unwrap_or(Vec2::X) * on_disk
+        };
+        is_hit.then(|| self.at(local))
+    }
 }
 
 impl Shape for Disk {
@@ -166,30 +188,13 @@ impl Shape for Disk {
             return 0.0;
         }
         let pdf = |at: SurfacePoint| area_to_solid_angle(1.0 / self.area(), at.p - ctx.p, at.n);
-        self.hit(ctx.p, wi)
+        self.met(ctx.p, wi, ctx.p_error.length())
             .and_then(pdf)
             .map_or(0.0, |(_, pdf)| pdf)
     }
 
     fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
-        let o = self.transform.inverse_point(origin);
-        let d = self.transform.inverse_vector(direction);
-        let t = -o.z / d.z;
-        if !(t > 0.0 && t.is_finite()) {
-            return None;
-        }
-        let local = o.truncate() + d.truncate() * t;
-        let magnitude = o.length() + t + origin.length();
-        let slack = hit_slack(magnitude, d.z).min(0.5 * self.radius);
-        let r = local.length();
-        let is_hit = r <= self.radius + slack && r >= self.inner_radius - slack;
-        let on_disk = r.clamp(self.inner_radius, self.radius);
-        let local = if r == on_disk {
-            local
-        } else {
-            local.try_normalize().unwrap_or(Vec2::X) * on_disk
-        };
-        is_hit.then(|| self.at(local))
+        self.met(origin, direction, 0.0)
     }
 }
 

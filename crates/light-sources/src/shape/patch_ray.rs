@@ -75,7 +75,7 @@ impl BilinearPatch {
         }
         let p = self.along(from, uv);
         let t = p.dot(direction);
-        let slack = hit_slack(t + from.length() + self.p00.length(), 1.0);
+        let slack = hit_slack(t + from.length() + self.p00.length(), 0.0, 1.0);
         let is_near = p.cross(direction).length_squared() <= slack * slack;
         (t > 0.0 && is_near).then_some((uv, t))
     }

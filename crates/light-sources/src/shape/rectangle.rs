@@ -122,6 +122,25 @@ impl Rectangle {
             uv,
         }
     }
+
+    /// Where a ray meets the rectangle, whose origin may be off by `error`.
+    fn met(&self, origin: Vec3, direction: Vec3, error: f32) -> Option<SurfacePoint> {
+        let to_corner = self.corner - origin;
+        let cos_theta = direction.dot(self.normal);
+        let t = to_corner.dot(self.normal) / cos_theta;
+        if !(t > 0.0 && t.is_finite()) {
+            return None;
+        }
+        let p = direction * t - to_corner;
+        let magnitude = t + to_corner.length() + self.corner.length();
+        let slack = hit_slack(magnitude, error, cos_theta);
+        let along = |edge: Vec3| {
+            let x = p.dot(edge) / edge.length_squared();
+            let slack = (slack / edge.length()).min(WIDEST_SLACK);
+            (x >= -slack && x <= 1.0 + slack).then(|| x.clamp(0.0, 1.0))
+        };
+        Some(self.at(Vec2::new(along(self.edges[0])?, along(self.edges[1])?)))
+    }
 }
 
 impl Shape for Rectangle {
@@ -169,7 +188,7 @@ impl Shape for Rectangle {
         if self.is_own(ctx) {
             return 0.0;
         }
-        let Some(at) = self.hit(ctx.p, wi) else {
+        let Some(at) = self.met(ctx.p, wi, ctx.p_error.length()) else {
             return 0.0;
         };
         let by_area = || self.by_area(self.toward(ctx.p, at.uv));
@@ -180,21 +199,7 @@ impl Shape for Rectangle {
     }
 
     fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
-        let to_corner = self.corner - origin;
-        let cos_theta = direction.dot(self.normal);
-        let t = to_corner.dot(self.normal) / cos_theta;
-        if !(t > 0.0 && t.is_finite()) {
-            return None;
-        }
-        let p = direction * t - to_corner;
-        let magnitude = t + to_corner.length() + self.corner.length();
-        let slack = hit_slack(magnitude, cos_theta);
-        let along = |edge: Vec3| {
-            let x = p.dot(edge) / edge.length_squared();
-            let slack = (slack / edge.length()).min(WIDEST_SLACK);
-            (x >= -slack && x <= 1.0 + slack).then(|| x.clamp(0.0, 1.0))
-        };
-        Some(self.at(Vec2::new(along(self.edges[0])?, along(self.edges[1])?)))
+        self.met(origin, direction, 0.0)
     }
 }
 

@@ -71,7 +71,8 @@ pub(super) const HIT_ERROR: f32 = 4.0 * f32::EPSILON;
 /// along the surface; it grows at grazing angles. Edges are extended by it, so that a direction
 /// toward any point hits.
 ///
-/// `magnitude` is the size of the coordinates that were subtracted.
-pub(super) fn hit_slack(magnitude: f32, cos_theta: f32) -> f32 {
-    HIT_ERROR * magnitude / cos_theta.abs()
+/// `magnitude` is the size of the coordinates that were subtracted, and `error` how far the origin of
+/// the ray may be from where it is.
+pub(super) fn hit_slack(magnitude: f32, error: f32, cos_theta: f32) -> f32 {
+    (HIT_ERROR * magnitude + error) / cos_theta.abs()
 }

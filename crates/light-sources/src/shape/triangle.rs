@@ -143,9 +143,10 @@ impl Triangle {
         (p1 - p0) * b.y + (p2 - p0) * b.z
     }
 
-    /// Where the ray meets the triangle, and the vector from its origin to there.
-    fn intersect(&self, origin: Vec3, direction: Vec3) -> Option<(Vec3, Vec3)> {
-        let b = self.barycentric(origin, direction)?;
+    /// Where the ray meets the triangle, and the vector from its origin, which may be off by `error`, to
+    /// there.
+    fn intersect(&self, origin: Vec3, direction: Vec3, error: f32) -> Option<(Vec3, Vec3)> {
+        let b = self.barycentric(origin, direction, error)?;
         let to_light = self.toward(origin, b);
         (to_light.dot(direction) > 0.0).then_some((b, to_light))
     }
@@ -155,12 +156,13 @@ impl Triangle {
     ///
     /// Each edge and the origin span a plane, and the ray has to pass all three on the same side.
     /// The triangle is enlarged by the rounding error of the products, so that a direction toward
-    /// any point of it always hits.
-    fn barycentric(&self, origin: Vec3, direction: Vec3) -> Option<Vec3> {
+    /// any point of it always hits, and by that of the origin. What hits beyond its edges by the latter is
+    /// at the edge.
+    fn barycentric(&self, origin: Vec3, direction: Vec3, error: f32) -> Option<Vec3> {
         let v = self.p.map(|p| p - origin);
         let side = |i: usize, j: usize| {
             let edge = v[j] - v[i];
-            let slack = EDGE_ERROR * v[i].length() * edge.length();
+            let slack = (EDGE_ERROR * v[i].length() + error) * edge.length();
             (direction.dot(v[i].cross(edge)), slack)
         };
         let sides = [side(1, 2), side(2, 0), side(0, 1)];
@@ -168,7 +170,16 @@ impl Triangle {
         let back = sides.iter().all(|(s, slack)| *s <= *slack);
         let b = Vec3::from_array(sides.map(|(s, _)| s));
         let sum = b.element_sum();
-        ((front || back) && sum != 0.0).then(|| b / sum)
+        if !(front || back) || sum == 0.0 {
+            return None;
+        }
+        let b = b / sum;
+        let inside = b.max(Vec3::ZERO);
+        Some(if error > 0.0 {
+            inside / inside.element_sum()
+        } else {
+            b
+        })
     }
 }
 
@@ -222,7 +233,9 @@ impl Shape for Triangle {
     }
 
     fn pdf_toward(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
-        let met = self.normal_and_inv_area().zip(self.intersect(ctx.p, wi));
+        let met = self
+            .normal_and_inv_area()
+            .zip(self.intersect(ctx.p, wi, ctx.p_error.length()));
         let Some(((n, inv_area), (b, to_light))) = met else {
             return 0.0;
         };
@@ -236,7 +249,7 @@ impl Shape for Triangle {
     }
 
     fn hit(&self, origin: Vec3, direction: Vec3) -> Option<SurfacePoint> {
-        let (b, _) = self.intersect(origin, direction)?;
+        let (b, _) = self.intersect(origin, direction, 0.0)?;
         Some(self.at(b, self.normal()?))
     }
 }

@@ -4,7 +4,7 @@
 use core::f64::consts::PI;
 
 use light_bounds::LightSampleContext;
-use light_math::glam::{Affine3A, DVec3, Quat, Vec2, Vec3};
+use light_math::glam::{Affine3A, DVec2, DVec3, Quat, Vec2, Vec3};
 use light_math::warp::cosine_hemisphere;
 use light_math::{Frame, mis};
 use light_sources::shape::{AnyShape, Shape, ShapeDesc};
@@ -237,47 +237,103 @@ fn flat_quads_stay_flat() {
     assert!(bent > 1.3 * flat, "a bent one has {bent}, not {flat}");
 }
 
+/// By how much all light is too bright by MIS, where rays start beside the receiver `from` away from a
+/// light at `at`, as far as rounding of points asks for. `is_hit` tells whether a ray meets the light.
+fn excess_by_both(
+    shape: &dyn Shape,
+    [at, from]: [Vec3; 2],
+    is_hit: &dyn Fn(Vec3, Vec3) -> bool,
+) -> f64 {
+    const STEPS: u16 = 512;
+    let n = (Vec3::new(0.6, 0.0, 0.8) * 0.7 - from).normalize();
+    let error = at.abs() * 8.0 * f32::EPSILON;
+    let ctx = LightSampleContext::surface(at + from, n, n).with_error(error);
+    let origin = ctx.p + n * n.abs().dot(error);
+    let frame = Frame::from_z(n);
+    let [mut by_light, mut by_both] = [0.0, 0.0];
+    for i in 0..STEPS {
+        for j in 0..STEPS {
+            let u = (Vec2::new(f32::from(i), f32::from(j)) + 0.5) / f32::from(STEPS);
+            if let Some(sample) = shape.sample_toward(&ctx, u) {
+                let cos = sample.wi.dot(n).max(0.0);
+                let weight = mis::power(sample.pdf, cosine_hemisphere::pdf(cos));
+                by_light += f64::from(cos / sample.pdf);
+                by_both += f64::from(weight * cos / sample.pdf);
+            }
+            let local = cosine_hemisphere::sample(u);
+            let wi = frame.from_local(local);
+            if is_hit(origin, wi) {
+                let pdf = cosine_hemisphere::pdf(local.z);
+                let weight = mis::power(pdf, shape.pdf_toward(&ctx, wi));
+                by_both += f64::from(weight * local.z / pdf);
+            }
+        }
+    }
+    by_both / by_light - 1.0
+}
+
+/// Where coordinates are large, and on which side of a light the receiver is.
+const FAR: Vec3 = Vec3::new(9000.0, -8000.0, 10_000.0);
+const SIDES: [Vec3; 2] = [Vec3::new(1.0, -0.5, 0.25), Vec3::new(-0.5, 0.25, 0.75)];
+
 /// Rays start beside their surface, by as much as the rounding of its points, and see a little more
-/// of a round light on one side and less on the other: the weights of both kinds of samples still
+/// of a light on one side and less on the other: the weights of both kinds of samples still
 /// balance.
 #[test]
 fn rays_that_start_beside_the_receiver_have_the_density_of_samples() {
-    const STEPS: u16 = 512;
-    let at = Vec3::new(9000.0, -8000.0, 10_000.0);
     let tube = ShapeDesc::Cylinder {
-        transform: Affine3A::from_rotation_translation(Quat::from_rotation_x(1.2), at),
+        transform: Affine3A::from_rotation_translation(Quat::from_rotation_x(1.2), FAR),
         radius: 0.125,
         length: 1.5,
     };
-    for (name, desc) in [("ball", ShapeDesc::sphere(at, 0.125)), ("tube", tube)] {
+    for (name, desc) in [("ball", ShapeDesc::sphere(FAR, 0.125)), ("tube", tube)] {
         let shape = desc.build().expect("a shape");
-        for from in [Vec3::new(1.0, -0.5, 0.25), Vec3::new(-0.5, 0.25, 0.75)] {
-            let n = (Vec3::new(0.6, 0.0, 0.8) * 0.7 - from).normalize();
-            let error = at.abs() * 8.0 * f32::EPSILON;
-            let ctx = LightSampleContext::surface(at + from, n, n).with_error(error);
-            let origin = ctx.p + n * n.abs().dot(error);
-            let frame = Frame::from_z(n);
-            let [mut by_light, mut by_both] = [0.0, 0.0];
-            for i in 0..STEPS {
-                for j in 0..STEPS {
-                    let u = (Vec2::new(f32::from(i), f32::from(j)) + 0.5) / f32::from(STEPS);
-                    if let Some(sample) = shape.sample_toward(&ctx, u) {
-                        let cos = sample.wi.dot(n).max(0.0);
-                        let weight = mis::power(sample.pdf, cosine_hemisphere::pdf(cos));
-                        by_light += f64::from(cos / sample.pdf);
-                        by_both += f64::from(weight * cos / sample.pdf);
-                    }
-                    let local = cosine_hemisphere::sample(u);
-                    let wi = frame.from_local(local);
-                    if shape.hit(origin, wi).is_some() {
-                        let pdf = cosine_hemisphere::pdf(local.z);
-                        let weight = mis::power(pdf, shape.pdf_toward(&ctx, wi));
-                        by_both += f64::from(weight * local.z / pdf);
-                    }
-                }
-            }
-            let error = by_both / by_light - 1.0;
-            assert!(error.abs() < 3e-3, "{name} from {from}: {error}");
+        for from in SIDES {
+            let is_hit = |origin, wi| shape.hit(origin, wi).is_some();
+            let excess = excess_by_both(&shape, [FAR, from], &is_hit);
+            assert!(excess.abs() < 3e-3, "{name} from {from}: {excess}");
+        }
+    }
+}
+
+/// Whether a ray meets a flat shape with the normal z at the height of [`FAR`], of which `inside` tells
+/// which points it has, relative to [`FAR`]: in double precision, for `Shape::hit` is wider than the
+/// shape by its own rounding.
+fn meets_level(origin: Vec3, wi: Vec3, inside: impl Fn(DVec2) -> bool) -> bool {
+    let (from, wi) = (origin.as_dvec3() - FAR.as_dvec3(), wi.as_dvec3());
+    let t = -from.z / wi.z;
+    t > 0.0 && inside((from + wi * t).truncate())
+}
+
+#[test]
+fn flat_lights_have_the_density_of_samples_beside_the_receiver() {
+    type Inside = fn(DVec2) -> bool;
+    let (x, y) = (0.25 * Vec3::X, 0.25 * Vec3::Y);
+    let triangle = ShapeDesc::Triangle([FAR, FAR + x, FAR + y]);
+    let rectangle = ShapeDesc::Rectangle {
+        corner: FAR,
+        edges: [x, y],
+    };
+    let disk = ShapeDesc::Disk {
+        transform: Affine3A::from_translation(FAR),
+        radius: 0.125,
+        inner_radius: 0.0,
+    };
+    let shapes: [(&str, ShapeDesc, Inside); 3] = [
+        ("triangle", triangle, |p| {
+            p.min_element() >= 0.0 && p.x + p.y <= 0.25
+        }),
+        ("rectangle", rectangle, |p| {
+            p.min_element() >= 0.0 && p.max_element() <= 0.25
+        }),
+        ("disk", disk, |p| p.length() <= 0.125),
+    ];
+    for (name, desc, inside) in shapes {
+        let shape = desc.build().expect("a shape");
+        for from in SIDES {
+            let is_hit = |origin, wi| meets_level(origin, wi, inside);
+            let excess = excess_by_both(&shape, [FAR, from], &is_hit);
+            assert!(excess.abs() < 3e-3, "{name} from {from}: {excess}");
         }
     }
 }
