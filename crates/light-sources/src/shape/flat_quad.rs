@@ -53,7 +53,12 @@ impl FlatQuad {
     /// Where rounding lets a direction pass both triangles, the larger density: both have nearly
     /// the same, unless one is a sliver, whose density says nothing of the other.
     pub(super) fn pdf(&self, ctx: &LightSampleContext, wi: Vec3) -> f32 {
-        let [first, second] = self.triangles.each_ref().map(|t| t.pdf_toward(ctx, wi));
-        (first * self.first).max(second * (1.0 - self.first))
+        let larger = |ctx: &LightSampleContext| {
+            let [first, second] = self.triangles.each_ref().map(|t| t.pdf_toward(ctx, wi));
+            (first * self.first).max(second * (1.0 - self.first))
+        };
+        // The error of the receiver enlarges triangles beyond the diagonal, too.
+        let exact = larger(&ctx.with_error(Vec3::ZERO));
+        if exact > 0.0 { exact } else { larger(ctx) }
     }
 }

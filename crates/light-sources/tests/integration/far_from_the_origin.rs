@@ -319,7 +319,12 @@ fn flat_lights_have_the_density_of_samples_beside_the_receiver() {
         radius: 0.125,
         inner_radius: 0.0,
     };
-    let shapes: [(&str, ShapeDesc, Inside); 3] = [
+    let trapezoid = ShapeDesc::Quad([FAR, FAR + x, FAR + y, FAR + 0.5 * x + y]);
+    let shapes: [(&str, ShapeDesc, Inside); 4] = [
+        ("trapezoid", trapezoid, |p| {
+            let right = 0.25 - 0.5 * p.y;
+            p.min_element() >= 0.0 && p.y <= 0.25 && p.x <= right
+        }),
         ("triangle", triangle, |p| {
             p.min_element() >= 0.0 && p.x + p.y <= 0.25
         }),
