@@ -134,7 +134,12 @@ pub fn lights() {
         arrival,
     );
     let sky = flash::sky();
-    measure("sky-sample", random_point, |&u| sky.sample(u), sky_direction);
+    measure(
+        "sky-sample",
+        random_point,
+        |&u| sky.sample(u),
+        sky_direction,
+    );
     let axes = flash::axes();
     let axis = |i: u32| axes[i as usize % axes.len()].decode();
     measure("sky-pdf", axis, |&wi| sky.pdf(wi), |pdf| [pdf.to_bits()]);

@@ -1,5 +1,6 @@
 //! How the positions of a thin slanted sheet of lights are correlated, in the offset's byte.
 
+#[cfg(feature = "alloc")]
 use crate::lane_math::nearest;
 #[cfg(feature = "alloc")]
 use crate::node::spread_code::SpreadCode;
@@ -11,6 +12,7 @@ use crate::node::wide_node::WideNode;
 pub(crate) const CORRELATION: f32 = 0.325;
 
 /// The code of three correlations that are 0.
+#[cfg(feature = "alloc")]
 const NONE: f32 = 63.0;
 
 /// Three correlations, of -2 to 2 steps each, in a number of 1 to 125: above 0, which no offset of

@@ -180,7 +180,8 @@ impl WideNode {
     /// Sets whether the lights lie along a line.
     #[cfg(feature = "alloc")]
     pub(crate) const fn set_line(&mut self, is_line: bool) {
-        self.count = self.children() as u8 | if is_line { ALONG_LINE } else { 0 };
+        let flag = if is_line { ALONG_LINE } else { 0 };
+        self.count = (self.count & !ALONG_LINE) | flag;
     }
 
     /// The children that are nodes.
