@@ -22,7 +22,7 @@ pub(crate) struct AlphaMaskedLights {
 }
 
 /// A light, and whether it has an alpha mask.
-type EmissiveSurface = (LightDesc<Rgb>, bool);
+pub(crate) type DescribedSurface = (LightDesc<Rgb>, bool);
 
 /// Builds the lights of emissive surfaces; each texture is made once.
 pub(crate) struct Textures<'a> {
@@ -48,7 +48,7 @@ impl<'a> Textures<'a> {
         &mut self,
         mesh: &WorldMesh,
         material: &Material,
-    ) -> Option<EmissiveSurface> {
+    ) -> Option<DescribedSurface> {
         let (emission, is_masked) = self.emission(material)?;
         let desc = LightDesc::Mesh(MeshLightDesc {
             positions: mesh.positions.clone(),
@@ -64,7 +64,7 @@ impl<'a> Textures<'a> {
         &mut self,
         quadric: &WorldQuadric,
         material: &Material,
-    ) -> Option<EmissiveSurface> {
+    ) -> Option<DescribedSurface> {
         let (mut emission, is_masked) = self.emission(material)?;
         if quadric.described.front == QuadricFront::Inside {
             if emission.sides == Sides::Front {

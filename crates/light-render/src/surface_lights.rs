@@ -4,7 +4,7 @@ use lights::sources::{LightSet, LightSetBuilder, Rgb, SourceId};
 
 use crate::SceneLightsError;
 use crate::emitter_ids::EmitterIds;
-use crate::surface_emission::{AlphaMaskedLights, Textures};
+use crate::surface_emission::{AlphaMaskedLights, DescribedSurface, Textures};
 use crate::world_mesh::WorldMesh;
 use crate::world_quadric::WorldQuadric;
 
@@ -35,26 +35,16 @@ impl SurfaceLights {
         let mut this = Self::default();
         for (index, mesh) in meshes.iter().enumerate() {
             let material = &materials[mesh.material];
-            if let Some((desc, is_masked)) = textures.mesh_light(mesh, material) {
-                let source = builder.add(desc);
-                let source = source.map_err(|e| SceneLightsError::light(&material.name, e))?;
-                this.meshes.push(EmissiveSurface {
-                    index,
-                    source,
-                    is_masked,
-                });
+            if let Some(described) = textures.mesh_light(mesh, material) {
+                let surface = EmissiveSurface::add(builder, index, described, material)?;
+                this.meshes.push(surface);
             }
         }
         for (index, quadric) in quadrics.iter().enumerate() {
             let material = &materials[quadric.material()];
-            if let Some((desc, is_masked)) = textures.quadric_light(quadric, material) {
-                let source = builder.add(desc);
-                let source = source.map_err(|e| SceneLightsError::light(&material.name, e))?;
-                this.quadrics.push(EmissiveSurface {
-                    index,
-                    source,
-                    is_masked,
-                });
+            if let Some(described) = textures.quadric_light(quadric, material) {
+                let surface = EmissiveSurface::add(builder, index, described, material)?;
+                this.quadrics.push(surface);
             }
         }
         Ok(this)
@@ -85,6 +75,22 @@ impl SurfaceLights {
 }
 
 impl EmissiveSurface {
+    /// Adds the light of the surface at `index`, of this `material`, to a set.
+    fn add(
+        builder: &mut LightSetBuilder<Rgb>,
+        index: usize,
+        (desc, is_masked): DescribedSurface,
+        material: &Material,
+    ) -> Result<Self, SceneLightsError> {
+        let source = builder.add(desc);
+        let source = source.map_err(|e| SceneLightsError::light(&material.name, e))?;
+        Ok(Self {
+            index,
+            source,
+            is_masked,
+        })
+    }
+
     /// Its lights, so many from `first` on, if they have an alpha mask.
     fn masked(
         &self,

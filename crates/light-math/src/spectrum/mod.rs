@@ -49,8 +49,8 @@ pub trait Spectrum {
     /// An upper bound of the values, tight unless an implementor says otherwise.
     fn max_value(&self) -> f32;
 
-    /// The photometric, the radiometric and the colorimetric integrals. The default sums trapezoids between whole
-    /// nanometres; a spectrum with narrower features has a sum of its own.
+    /// The photometric, the radiometric and the colorimetric integrals. The default sums trapezoids
+    /// between whole nanometres; a spectrum with narrower features has a sum of its own.
     fn integrals(&self) -> SpectrumIntegrals {
         SpectrumIntegrals::of_nanometres(|lambda| self.eval(lambda))
     }

@@ -14,8 +14,8 @@ use crate::{Luminaire, LuminaireFormat, PhotometricWeb};
 
 /// The luminaire in the text of a EULUMDAT file.
 ///
-/// Its planes are of type [`WebType::C`](crate::WebType::C). Intensities are stated for 1000 lm of lamps and are
-/// scaled by those of the first set of lamps; further sets are ignored with a warning.
+/// Its planes are of type [`WebType::C`](crate::WebType::C). Intensities are stated for 1000 lm of
+/// lamps and are scaled by those of the first set of lamps; further sets are ignored with a warning.
 ///
 /// # Errors
 /// When the text is malformed: the line and what was expected there.
